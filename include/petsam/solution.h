@@ -10,11 +10,12 @@
   into contact; the method stands in src/contact/step/direction.c.
 */
 typedef enum {
-  SAM_RULE_END,      /* the shear at the end of the step; slip counts from the place before the step */
-  SAM_RULE_END_LINE, /* the same, while all loads lie on a line: the shear does not turn */
-  SAM_RULE_LINE,     /* the same shear; slip begins where cells touch, by the ratio of the loads */
-  SAM_RULE_MID,      /* the shear at mid step (in the first step at the end); slip begins where cells touch, likewise */
-  SAM_RULE_TOUCHING  /* the same; slip of dissimilar bodies counts from the time at which cells touch */
+  SAM_RULE_END,         /* the shear at the end of the step; slip counts from the place before the step */
+  SAM_RULE_END_LINE,    /* the same, while all loads lie on a line: the shear does not turn */
+  SAM_RULE_LINE,        /* the shear at the end; slip begins where cells touch, by the ratio of the loads */
+  SAM_RULE_TOUCHING,    /* the same; slip of dissimilar bodies counts from the time at which cells touch */
+  SAM_RULE_MID,         /* the shear at mid step; slip begins where cells touch, by the ratio of the loads */
+  SAM_RULE_MID_TOUCHING /* the same; slip of dissimilar bodies counts from the time at which cells touch */
 } SamSlipRule;
 
 /*

@@ -3,7 +3,29 @@
 #define PETSAM_CONTACTIMPL_H
 
 #include <petsam/private/contact.h>
+#include <petsam/private/solutionimpl.h>
+#include <petsam/private/stepcache.h>
 #include "step/step.h"
+
+/* SamStepStart - the guess from which a step is solved. */
+typedef struct {
+  PetscBool     pressure, shear; /* the tried solution holds a guess of the pressure; of the shear */
+  double        rigid[3];        /* guess of the tangential rigid displacements (m, m, rad) */
+  double        along;           /* part of the step's change along that of the last step, in units of it; >= 0 */
+  SamCachedStep kept;            /* the same step one cycle before; NULL: none */
+} SamStepStart;
+
+/* SamTried - the tried step besides its solution, which holds what is prescribed: all that is found before it is
+   solved. */
+typedef struct {
+  const SamSolution *last;          /* the committed solution; NULL in the first step */
+  const SamSolution *before;        /* the same, or NULL if its slip is not continued */
+  PetscBool          same_gap;      /* it has the gap of the committed pressure */
+  PetscBool          same_pressure; /* its pressure is the committed one and is not solved for again */
+  SamStepOf          of;            /* inputs for which its pressure is solved */
+  SamStepStart       start;
+  PetscBool          known_pressure; /* found by the solution: the pressure is the committed or the kept one */
+} SamTried;
 
 struct _n_SamContact {
   SamClassId class_id;
@@ -21,10 +43,10 @@ struct _n_SamContact {
   SamTangential       tangential;
   /* its state */
   SamState         state;
-  PetscBool        has_tried;                      /* there is a tried solution */
-  PetscBool        settles;                        /* slip is found to the tolerance of the shear */
-  PetscBool        same_gap;                       /* the tried step has the gap of the committed pressure */
-  SamSolution      generation[SAM_GENERATIONS];    /* views of the state */
+  PetscBool        has_tried;                   /* there is a tried solution */
+  PetscBool        settles;                     /* slip is found to the tolerance of the shear */
+  SamSolution      generation[SAM_GENERATIONS]; /* views of the state */
+  SamTried         tried;
   SamStepCache     cache;                          /* steps of the previous cycle */
   PetscObjectState revision[SAM_GENERATIONS];      /* of the problem at the pressure; -1: another problem */
   PetscBool        attracts;                       /* the surfaces attract each other */
@@ -64,15 +86,15 @@ static inline PetscBool SamContactRecalls(SamContact c)
 /* ---- what is prescribed (prescription.c) ---- */
 
 /*
-  SamContactCheckControl - rejects an inconsistent control. Rotations that the elasticity does not have are set to 0.
-  Collective. Errors: PETSC_ERR_ARG_OUTOFRANGE, SAM_ERR_USER.
-  SamContactFindKept - finds the same step one cycle before; sets normal loads that differ from its loads, or the last
-  ones, by rounding only, to these. Not collective.
+  SamContactPrescribe - rejects an inconsistent control; sets rotations that the elasticity does not have to 0, and
+  conditions that depend on others. `kept`: the same step one cycle before. `rounded`: the control with the normal loads
+  of that step, or the last ones, where they differ by rounding only. Collective. Errors: PETSC_ERR_ARG_OUTOFRANGE,
+  SAM_ERR_USER.
   SamContactFindRule - finds the rule of slip of a begun step, whose solution has its control and rolled path.
   Collective.
 */
-PETSC_INTERN PetscErrorCode SamContactCheckControl(SamContact contact, SamControl *control);
-PETSC_INTERN void           SamContactFindKept(SamContact contact, SamControl *control, SamCachedStep *kept);
+PETSC_INTERN PetscErrorCode SamContactPrescribe(SamContact contact, SamControl *control, SamControl *rounded,
+                                                SamCachedStep *kept);
 PETSC_INTERN PetscErrorCode SamContactFindRule(SamContact contact, SamSolution *solution);
 
 /* ---- what is remembered (generations.c) ---- */
@@ -94,13 +116,7 @@ PETSC_INTERN PetscErrorCode SamContactBegin(SamContact contact, const SamControl
 PETSC_INTERN PetscErrorCode SamContactStore(SamContact contact, const SamStep *step);
 /* SamContactRefresh - makes the views of the committed generation, and of that one step back. Collective. */
 PETSC_INTERN PetscErrorCode SamContactRefresh(SamContact contact);
-/* SamContactSlipBefore - returns the committed solution, or NULL if the slip of this step does not continue from its
-   slip. Not collective. */
-static inline const SamSolution *SamContactSlipBefore(SamContact contact)
-{
-  return contact->motion->continues ? SamContactBefore(contact) : NULL;
-}
-/* SamContactPredict - makes the guess for a step, where the steps before allow one (predict.c). Collective. */
-PETSC_INTERN PetscErrorCode SamContactPredict(SamContact contact, const SamControl *control, SamStepStart *start);
+/* SamContactPredict - makes the guess for the tried step, where the steps before allow one (predict.c). Collective. */
+PETSC_INTERN PetscErrorCode SamContactPredict(SamContact contact);
 
 #endif

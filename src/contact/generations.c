@@ -376,6 +376,7 @@ PetscErrorCode SamContactBegin(SamContact c, const SamControl *control)
   PetscFunctionBegin;
   PetscCall(SamContactDeclare(c));
   PetscCall(SamStateBegin(c->state));
+  c->tried  = (SamTried){.last = before, .before = c->motion->continues ? before : NULL};
   *s        = (SamSolution){.control = *control};
   s->rolled = SamProblemGetRolled(c->problem, control, s->roll);
   if (s->rolled != 0 && before) PetscCall(Move(c, s->roll));

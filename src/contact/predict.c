@@ -257,7 +257,7 @@ static PetscErrorCode Extrapolate(SamContact c, double alpha, const SamControl *
 /* ---- the start ---- */
 
 /* Takes the committed pressure as the guess, for a step in which only the gap has changed. */
-static PetscErrorCode StartFromLastPressure(SamContact c, SamStepStart *start)
+static PetscErrorCode StartFromLastPressure(SamContact c)
 {
   PetscReal most;
 
@@ -265,18 +265,19 @@ static PetscErrorCode StartFromLastPressure(SamContact c, SamStepStart *start)
   PetscCall(VecMax(c->generation[SAM_COMMITTED].pressure, NULL, &most));
   if (most <= 0) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamVecCopyNonzero(c->generation[SAM_COMMITTED].pressure, c->generation[SAM_TRIED].pressure));
-  start->pressure = PETSC_TRUE;
+  c->tried.start.pressure = PETSC_TRUE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamContactPredict(SamContact c, const SamControl *control, SamStepStart *start)
+PetscErrorCode SamContactPredict(SamContact c)
 {
+  const SamControl  *control = &c->generation[SAM_TRIED].control;
+  SamStepStart      *start   = &c->tried.start;
   const SamSolution *now = &c->generation[SAM_COMMITTED], *before = &c->generation[SAM_BEFORE];
   double             alpha = 0;
   PetscBool          found = PETSC_FALSE, near = IsNear(c, control), straight = PETSC_FALSE;
 
   PetscFunctionBegin;
-  *start = (SamStepStart){.pressure = PETSC_FALSE};
   if (SamContactGetSteps(c) > 1) start->along = Continuation(c, &before->control, &now->control, control, &straight);
   if (straight && c->set.warm_start) alpha = start->along;
   for (PetscInt k = 0; k < 3; k++) {
@@ -288,13 +289,13 @@ PetscErrorCode SamContactPredict(SamContact c, const SamControl *control, SamSte
   start->pressure = found;
   start->shear    = found && (near || c->motion->continues);
   if (!found && near) {
-    PetscCall(StartFromLastPressure(c, start));
+    PetscCall(StartFromLastPressure(c));
     PetscCall(SamVecCopyNonzero(now->shear, c->generation[SAM_TRIED].shear));
     start->shear = start->pressure;
     PetscFunctionReturn(PETSC_SUCCESS);
   }
   if (!found && c->set.warm_start && !SamContactIsCoupled(c) &&
       SamControlIsSame(&now->control, control, SAM_BALANCE_NORMAL))
-    PetscCall(StartFromLastPressure(c, start));
+    PetscCall(StartFromLastPressure(c));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -29,7 +29,8 @@ PetscErrorCode SamContactCheckConditions(SamContact c, const SamControl *control
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamContactCheckControl(SamContact c, SamControl *control)
+/* Rejects an inconsistent control. Rotations that the elasticity does not have are set to 0. */
+static PetscErrorCode CheckControl(SamContact c, SamControl *control)
 {
   PetscInt                wrong;
   char                    why[192];
@@ -59,7 +60,9 @@ PetscErrorCode SamContactCheckControl(SamContact c, SamControl *control)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-void SamContactFindKept(SamContact c, SamControl *control, SamCachedStep *kept)
+/* Finds the same step one cycle before; sets normal loads that differ from its loads, or the last ones, by rounding
+   only, to these. */
+static void FindKept(SamContact c, SamControl *control, SamCachedStep *kept)
 {
   const PetscReal lever  = PetscMin(c->grid->width[0], c->grid->width[1]) / 2;
   SamControl      before = *control;
@@ -68,6 +71,15 @@ void SamContactFindKept(SamContact c, SamControl *control, SamCachedStep *kept)
   if (*kept) SamCachedStepGetControl(*kept, &before);
   SamControlSnap(&before, lever, SAM_BALANCE_NORMAL, control);
   if (SamContactBefore(c)) SamControlSnap(&c->generation[SAM_COMMITTED].control, lever, SAM_BALANCE_NORMAL, control);
+}
+
+PetscErrorCode SamContactPrescribe(SamContact c, SamControl *control, SamControl *rounded, SamCachedStep *kept)
+{
+  PetscFunctionBegin;
+  PetscCall(CheckControl(c, control));
+  *rounded = *control;
+  FindKept(c, rounded, kept);
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* ---- the rule of slip ---- */
@@ -150,8 +162,8 @@ PetscErrorCode SamContactFindRule(SamContact c, SamSolution *s)
     s->rule = straight ? SAM_RULE_END_LINE : SAM_RULE_END;
   else if (AreDissimilar(c) &&
            (MayGrow(before, to) || (!HasContact(before) && (to->together || AppliesOnlyNormal(before, to)))))
-    s->rule = SAM_RULE_TOUCHING;
+    s->rule = before ? SAM_RULE_MID_TOUCHING : SAM_RULE_TOUCHING;
   else
-    s->rule = straight ? SAM_RULE_LINE : SAM_RULE_MID;
+    s->rule = straight || !before ? SAM_RULE_LINE : SAM_RULE_MID;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

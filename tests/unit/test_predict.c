@@ -105,11 +105,9 @@ static Made MakeContact(SamGrid grid, Vec p[2], Vec q[2])
 /* The guess for a step, into the tried generation. */
 static SamStepStart Predict(const Made *m, const SamControl *next)
 {
-  SamStepStart start;
-
   sam_call(SamContactBegin(m->contact, next));
-  sam_call(SamContactPredict(m->contact, next, &start));
-  return start;
+  sam_call(SamContactPredict(m->contact));
+  return m->contact->tried.start;
 }
 
 static void DestroyContact(Made *m)

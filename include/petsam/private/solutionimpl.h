@@ -9,8 +9,8 @@
 #include <petsam/solution.h>
 
 /*
-  SamRuleTurns - true if the shear may turn in the step. SamRuleEnters - true if slip begins where cells touch. Not
-  collective.
+  SamRuleTurns - true if the shear may turn in the step. SamRuleEnters - true if slip begins where cells touch.
+  SamRuleTouches - true if it counts from the time at which they touch. Not collective.
 */
 static inline PetscBool SamRuleTurns(SamSlipRule rule)
 {
@@ -19,6 +19,10 @@ static inline PetscBool SamRuleTurns(SamSlipRule rule)
 static inline PetscBool SamRuleEnters(SamSlipRule rule)
 {
   return rule >= SAM_RULE_LINE ? PETSC_TRUE : PETSC_FALSE;
+}
+static inline PetscBool SamRuleTouches(SamSlipRule rule)
+{
+  return rule == SAM_RULE_TOUCHING || rule == SAM_RULE_MID_TOUCHING ? PETSC_TRUE : PETSC_FALSE;
 }
 
 /* SamValues - this rank's values of a solution's fields, between SamValuesGet() and SamValuesRestore(). */

@@ -323,8 +323,7 @@ SamCellMotion SamIncrementGetCellMotion(const SamIncrement *s, ptrdiff_t k, doub
     motion = s->solutions[0] ? SAM_CELL_MOTION_ENTERS : SAM_CELL_MOTION_FIRST;
   share[0] = ShareBefore(s, motion, k, slopes);
   share[1] = motion == SAM_CELL_MOTION_NONE ? 0 : 1 - share[0];
-  if (s->solutions[1]->rule == SAM_RULE_TOUCHING &&
-      (motion == SAM_CELL_MOTION_ENTERS || motion == SAM_CELL_MOTION_FIRST)) {
+  if (SamRuleTouches(s->solutions[1]->rule) && (motion == SAM_CELL_MOTION_ENTERS || motion == SAM_CELL_MOTION_FIRST)) {
     share[0] = 0;
     share[1] = s->solutions[0] && SamSolutionGetNormal(s->solutions[0]) > 0 ? TOUCHED : TOUCHED_FIRST;
   }

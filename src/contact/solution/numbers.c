@@ -47,7 +47,7 @@ static void SumRow(const SamIncrement *increment, PetscInt j, const PetscInt spa
       sums[BORE] += v0->b[k];
       sums[LOCKED] += 0.5 * (q[k] * v->u_t[k] + q[l] * v->u_t[l] - v0->q[k] * v0->u_t[k] - v0->q[l] * v0->u_t[l]);
     }
-    if (increment->solutions[1]->rule == SAM_RULE_TOUCHING)
+    if (SamRuleTouches(increment->solutions[1]->rule))
       sums[BEFORE_TOUCH] += WorkBeforeTouch(increment, k, dx[i], dy[i]);
     if (state == SAM_CELL_OPEN) continue;
     most[PRESSURE] = PetscMax(most[PRESSURE], p[k]);
@@ -103,8 +103,7 @@ static void AddErrors(const SamIncrement *increment, PetscInt j, const PetscInt 
   const double *b0 = increment->at_before.b, *b1 = increment->at_now.b, *sx = increment->row[0],
                *sy = increment->row[1];
 
-  if (!increment->solutions[0] && increment->solutions[1]->rule != SAM_RULE_TOUCHING)
-    sums[ERROR] = fabs(sums[DISSIPATED]);
+  if (!increment->solutions[0] && !SamRuleTouches(increment->solutions[1]->rule)) sums[ERROR] = fabs(sums[DISSIPATED]);
   if (!increment->solutions[0]) return;
   SamIncrementTurnRow(increment, j, turned);
   for (PetscInt i = span[0]; i < span[1]; i++) {
@@ -254,7 +253,7 @@ static PetscErrorCode SumCells(SamProblem problem, const SamSolution *last, cons
   sums[ERROR] += sums[TURNED] / PetscMax(sums[STICK] / PetscMax(sums[CONTACT], 1), LEAST) + ErrorOfTouching(sums);
   numbers[ENERGY_ERROR] = sums[ERROR] * area;
   numbers[ENTERING]     = sums[BEFORE_TOUCH] * area;
-  numbers[TOUCHING]     = s->rule == SAM_RULE_TOUCHING ? 1 : 0;
+  numbers[TOUCHING]     = SamRuleTouches(s->rule) ? 1 : 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

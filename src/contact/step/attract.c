@@ -55,15 +55,15 @@ static PetscErrorCode Find(Passes *p)
   PetscReal       contact, pulled, moved, error;
 
   PetscFunctionBegin;
-  PetscCall(SamElasticityApplyNormal(w->task->elasticity, w->s->pressure, p->change));
-  PetscCall(SamSolutionComputeGap(w->task->problem, w->s, p->change, p->h, p->gap));
-  PetscCall(SamProblemAttract(w->task->problem, p->gap, p->found));
+  PetscCall(SamElasticityApplyNormal(w->elasticity, w->s->pressure, p->change));
+  PetscCall(SamSolutionComputeGap(w->contact->problem, w->s, p->change, p->h, p->gap));
+  PetscCall(SamProblemAttract(w->contact->problem, p->gap, p->found));
   PetscCall(VecNorm(p->change, NORM_INFINITY, &contact));
   PetscCall(VecNorm(w->pulled, NORM_INFINITY, &pulled));
   PetscCall(VecWAXPY(p->gap, -1, w->s->tension, p->found));
-  PetscCall(SamElasticityApplyNormal(w->task->elasticity, p->gap, p->change));
+  PetscCall(SamElasticityApplyNormal(w->elasticity, p->gap, p->change));
   PetscCall(VecNorm(p->change, NORM_INFINITY, &moved));
-  PetscCall(SamSolutionTensionError(w->task->problem, w->s, p->gap, &error));
+  PetscCall(SamSolutionTensionError(w->contact->problem, w->s, p->gap, &error));
   if (moved > 0) error = PetscMax(error, moved / PetscMax(PetscMax(contact, pulled), moved));
   p->falls = error < p->error ? p->falls + 1 : 0;
   p->error = error;
@@ -80,10 +80,10 @@ static PetscErrorCode Accelerate(Passes *p)
   PetscCall(VecWAXPY(p->gap, 1, w->s->tension, p->found));
   PetscCall(SamMixingNext(p->mixing, p->gap, p->found, w->s->tension));
   PetscCall(VecGetArray(w->s->tension, &t));
-  for (PetscInt k = 0; k < w->task->grid->cells; k++) t[k] = PetscMax(t[k], 0);
+  for (PetscInt k = 0; k < w->grid->cells; k++) t[k] = PetscMax(t[k], 0);
   PetscCall(VecRestoreArray(w->s->tension, &t));
   PetscCall(VecCopy(w->pulled, p->change));
-  PetscCall(SamElasticityApplyNormal(w->task->elasticity, w->s->tension, w->pulled));
+  PetscCall(SamElasticityApplyNormal(w->elasticity, w->s->tension, w->pulled));
   PetscCall(VecAYPX(p->change, -1, w->pulled));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -112,7 +112,7 @@ PetscErrorCode SamSolveBearTension(SamSolve *w)
   PetscReal loads[3] = {0, 0, 0};
 
   PetscFunctionBegin;
-  if (w->s->tension) PetscCall(SamBalanceGetLoads(w->task->grid, SAM_BALANCE_NORMAL, w->s->tension, loads));
+  if (w->s->tension) PetscCall(SamBalanceGetLoads(w->grid, SAM_BALANCE_NORMAL, w->s->tension, loads));
   for (PetscInt k = 0; k < 3; k++)
     if (w->normal.force[k]) w->normal.load[k] = w->s->control.value[SamComponentsOf[SAM_BALANCE_NORMAL][k]] + loads[k];
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -126,16 +126,16 @@ PetscBool SamSolveIsApart(const SamSolve *w)
 PetscErrorCode SamSolveFailApart(SamSolve *w)
 {
   const SamComponentName *name = &SamComponentNames[SAM_COMPONENT_N];
-  const char *const       unit = SamUnitOn(w->task->grid, name->load_unit);
+  const char *const       unit = SamUnitOn(w->grid, name->load_unit);
   const double            load = (double)w->s->control.value[SAM_COMPONENT_N];
-  const PetscInt          id   = SamStateFindNumber(w->task->state, "pull_max");
-  const double            most = *SamStateNumbers(w->task->state, id, SAM_COMMITTED);
+  const PetscInt          id   = SamStateFindNumber(w->contact->state, "pull_max");
+  const double            most = *SamStateNumbers(w->contact->state, id, SAM_COMMITTED);
   char                    message[sizeof(w->step->message)], borne[96] = "";
   PetscReal               tension = 0;
 
   PetscFunctionBegin;
-  if (w->task->committed && w->task->committed->tension)
-    PetscCall(VecNorm(w->task->committed->tension, NORM_INFINITY, &tension));
+  if (w->contact->tried.last && w->contact->tried.last->tension)
+    PetscCall(VecNorm(w->contact->tried.last->tension, NORM_INFINITY, &tension));
   if (most > 0)
     (void)snprintf(borne, sizeof(borne), " (largest pull that they have borne so far: %.6g %s)", most, unit);
   if (tension > 0)
@@ -166,38 +166,38 @@ static PetscErrorCode FailPasses(Passes *p)
 }
 
 /* Solves for the pressure, to a part of the tolerance as far as rounding allows. `solved`: true if it is solved. */
-static PetscErrorCode Solve(Passes *p, PetscBool has_pressure, PetscReal rtol, PetscBool *solved)
+static PetscErrorCode Solve(Passes *p, PetscReal rtol, PetscBool *solved)
 {
-  const SamSolver normal = SamNormalAsSolver(p->w->task->normal);
+  const SamSolver normal = SamNormalAsSolver(p->w->solver);
 
   PetscFunctionBegin;
   SamSolverSetEffort(normal, FINE * rtol, SAM_EFFORT_FULL);
-  PetscCall(SamSolvePressure(p->w, p->h, has_pressure));
+  PetscCall(SamSolvePressure(p->w, p->h));
   if (normal->reason == SAM_SOLVER_DIVERGED_STAGNATED && normal->error <= rtol)
     normal->reason = SAM_SOLVER_CONVERGED_RTOL;
   *solved = normal->reason > 0 ? PETSC_TRUE : PETSC_FALSE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode Iterate(Passes *p, PetscBool has_pressure)
+static PetscErrorCode Iterate(Passes *p)
 {
   SamSolve *const w      = p->w;
-  const SamSolver normal = SamNormalAsSolver(w->task->normal);
+  const SamSolver normal = SamNormalAsSolver(w->solver);
   PetscReal       rtol;
   PetscBool       solved = PETSC_FALSE;
 
   PetscFunctionBegin;
   PetscCall(SamSolverGetTolerances(normal, &rtol, NULL));
   rtol = PetscMax(rtol, PetscMin(normal->enough, ROUGH));
-  PetscCall(Solve(p, has_pressure, rtol, &solved));
+  PetscCall(Solve(p, rtol, &solved));
   for (PetscInt pass = 1; solved && pass <= p->most; pass++) {
     PetscCall(Find(p));
-    if (w->task->set->coupling_monitor)
-      PetscCall(PetscPrintf(w->task->grid->comm, "%5" PetscInt_FMT " tension change %.6e\n", pass, (double)p->error));
+    if (w->monitor)
+      PetscCall(PetscPrintf(w->grid->comm, "%5" PetscInt_FMT " tension change %.6e\n", pass, (double)p->error));
     if (p->error <= PART * rtol) PetscFunctionReturn(PETSC_SUCCESS);
     PetscCall(Proceed(p));
     if (SamSolveIsApart(w)) PetscFunctionReturn(PETSC_SUCCESS);
-    PetscCall(Solve(p, PETSC_TRUE, rtol, &solved));
+    PetscCall(Solve(p, rtol, &solved));
   }
   if (solved) PetscCall(FailPasses(p));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -206,28 +206,27 @@ static PetscErrorCode Iterate(Passes *p, PetscBool has_pressure)
 /* Adds the error of the tension to that of a solve that has only measured the pressure's error. */
 static PetscErrorCode Measure(Passes *p)
 {
-  const SamSolver normal = SamNormalAsSolver(p->w->task->normal);
+  const SamSolver normal = SamNormalAsSolver(p->w->solver);
 
   PetscFunctionBegin;
-  PetscCall(SamSolvePressure(p->w, p->h, PETSC_TRUE));
+  PetscCall(SamSolvePressure(p->w, p->h));
   PetscCall(Find(p));
   normal->error = PetscMax(normal->error, p->error);
   if (normal->reason > 0 && p->error > normal->enough) normal->reason = SAM_SOLVER_DIVERGED_ITS;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamSolveAttraction(SamSolve *w, Vec h, PetscBool has_pressure)
+PetscErrorCode SamSolveAttraction(SamSolve *w, Vec h)
 {
   Passes        p         = {.w = w, .h = h, .error = INFINITY};
   Vec *const    created[] = {&p.gap, &p.found, &p.change};
-  const SamGrid grid      = w->task->grid;
+  const SamGrid grid      = w->grid;
 
   PetscFunctionBegin;
   p.most = PetscMax(PASSES, SPREAD * PetscMax(grid->nx, grid->ny));
   for (int k = 0; k < 3; k++) PetscCall(SamGridCreateVec(grid, 1, created[k]));
   PetscCall(SamMixingCreate(grid, 1, &p.mixing));
-  PetscCall(SamNormalAsSolver(w->task->normal)->effort == SAM_EFFORT_RESIDUAL_ONLY ? Measure(&p)
-                                                                                   : Iterate(&p, has_pressure));
+  PetscCall(SamNormalAsSolver(w->solver)->effort == SAM_EFFORT_RESIDUAL_ONLY ? Measure(&p) : Iterate(&p));
   PetscCall(SamMixingDestroy(&p.mixing));
   for (int k = 0; k < 3; k++) PetscCall(VecDestroy(created[k]));
   PetscFunctionReturn(PETSC_SUCCESS);

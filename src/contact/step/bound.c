@@ -25,10 +25,10 @@
 
 PetscErrorCode SamSolveBound(SamSolve *w, Vec bound)
 {
-  const SamBoundAt at = {w->task->state, &w->s->control, w->s->pressure, w->slip, w->s->rolled};
+  const SamBoundAt at = {w->contact->state, &w->s->control, w->s->pressure, w->slip, w->s->rolled};
 
   PetscFunctionBegin;
-  PetscCall(SamProblemComputeBound(w->task->problem, &at, &(SamBound){.value = bound}));
+  PetscCall(SamProblemComputeBound(w->contact->problem, &at, &(SamBound){.value = bound}));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -36,16 +36,16 @@ PetscErrorCode SamSolveBound(SamSolve *w, Vec bound)
 static PetscErrorCode ComputeSlip(SamSolve *w)
 {
   PetscFunctionBegin;
-  if (!w->slip) PetscCall(SamGridCreateVec(w->task->grid, 1, &w->slip));
+  if (!w->slip) PetscCall(SamGridCreateVec(w->grid, 1, &w->slip));
   PetscCall(SamSolveDisplace(w));
-  PetscCall(SamSolutionComputeFriction(w->task->problem, w->task->before, w->s, w->slip, NULL, NULL));
+  PetscCall(SamSolutionComputeFriction(w->contact->problem, w->before, w->s, w->slip, NULL, NULL));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 typedef struct {
   SamSolve *w;
-  PetscBool has_shear, mixed; /* mixed: the argument combines results that had a solution */
-  PetscReal rtol, change;     /* the largest and the last change of the bound */
+  PetscBool mixed;        /* the argument combines results that had a solution */
+  PetscReal rtol, change; /* the largest and the last change of the bound */
 } Passes;
 
 /*
@@ -59,8 +59,9 @@ static PetscErrorCode Pass(void *context, PetscInt pass, Vec found, SamPassEnd *
   PetscReal       most[2];
 
   PetscFunctionBegin;
-  PetscCall(SamSolveTangential(w, p->has_shear || pass > 1));
-  if (SamSolverGetReason(SamTangentialAsSolver(w->task->tangential)) < 0) {
+  (void)pass;
+  PetscCall(SamSolveTangential(w));
+  if (SamSolverGetReason(SamTangentialAsSolver(w->contact->tangential)) < 0) {
     *end     = p->mixed ? SAM_PASS_RESTARTS : SAM_PASS_FAILED;
     p->mixed = PETSC_FALSE;
     PetscFunctionReturn(PETSC_SUCCESS);
@@ -82,33 +83,33 @@ static PetscErrorCode Fail(SamSolve *w, PetscReal change)
   char          message[sizeof(w->step->message)];
 
   PetscFunctionBegin;
-  PetscCall(SamProblemGetLaws(w->task->problem, &count, &laws));
+  PetscCall(SamProblemGetLaws(w->contact->problem, &count, &laws));
   while (k < count - 1 && !laws[k]->follows_slip) k++;
   PetscCall(PetscSNPrintf(message, sizeof(message),
                           "the friction of the law %s did not converge with the slip within %d iterations, the last "
                           "relative change is %.2g: %s",
-                          laws[k]->type, PASSES, (double)change, w->task->motion->remedy));
+                          laws[k]->type, PASSES, (double)change, w->contact->motion->remedy));
   PetscCall(SamStepFail(w->step, SAM_STATUS_NOT_CONVERGED, message));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamSolveShear(SamSolve *w, PetscBool has_shear, PetscReal rtol, SamEffort effort)
+PetscErrorCode SamSolveShear(SamSolve *w, PetscReal rtol, SamEffort effort)
 {
   static const SamFixedPoint bound  = {.components = 1, .most = PASSES, .nonnegative = PETSC_TRUE, .pass = Pass};
-  const SamSolver            solver = SamTangentialAsSolver(w->task->tangential);
-  Passes                     p      = {.w = w, .has_shear = has_shear, .rtol = BOUND_PART * rtol};
+  const SamSolver            solver = SamTangentialAsSolver(w->contact->tangential);
+  Passes                     p      = {.w = w, .rtol = BOUND_PART * rtol};
   SamPassEnd                 end;
   Vec                        total;
 
   PetscFunctionBegin;
-  PetscCall(SamSolutionCreateTotal(w->task->problem, w->s, &total));
-  if (w->task->coupled) PetscCall(SamElasticityApplyNormalToTangential(w->task->elasticity, total, w->pushed));
+  PetscCall(SamSolutionCreateTotal(w->contact->problem, w->s, &total));
+  if (SamContactIsCoupled(w->contact)) PetscCall(SamElasticityApplyNormalToTangential(w->elasticity, total, w->pushed));
   PetscCall(SamSolutionDestroyTotal(w->s, &total));
-  if (w->pushed && !w->task->coupled) PetscCall(VecSet(w->pushed, 0));
+  if (w->pushed && !SamContactIsCoupled(w->contact)) PetscCall(VecSet(w->pushed, 0));
   if (w->pushed)
-    PetscCall(SamProblemDisplace(w->task->problem, w->task->state, &w->s->control, NULL, w->pushed, NULL, NULL));
-  if (!SamProblemFollowsSlip(w->task->problem)) {
-    PetscCall(SamSolveTangential(w, has_shear)); /* with the effort set by the caller */
+    PetscCall(SamProblemDisplace(w->contact->problem, w->contact->state, &w->s->control, NULL, w->pushed, NULL, NULL));
+  if (!SamProblemFollowsSlip(w->contact->problem)) {
+    PetscCall(SamSolveTangential(w)); /* with the effort set by the caller */
     SamSolverSetEffort(solver, 0, SAM_EFFORT_FULL);
     PetscFunctionReturn(PETSC_SUCCESS);
   }

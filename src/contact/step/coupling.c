@@ -100,7 +100,7 @@ typedef struct {
 static PetscErrorCode Unpack(Passes *p)
 {
   SamSolve      *s     = p->s;
-  const PetscInt cells = s->task->grid->cells;
+  const PetscInt cells = s->grid->cells;
   const double  *x;
   double        *to;
 
@@ -146,12 +146,12 @@ static PetscErrorCode FindUnknown(SamSolve *s, Vec result)
   Vec motion = NULL;
 
   PetscFunctionBegin;
-  PetscCall(SamElasticityApplyTangentialToNormal(s->task->elasticity, s->s->shear, s->h));
+  PetscCall(SamElasticityApplyTangentialToNormal(s->elasticity, s->s->shear, s->h));
   if (SamSolveFindsTouching(s)) {
-    PetscCall(SamGridCreateVec(s->task->grid, 2, &motion));
+    PetscCall(SamGridCreateVec(s->grid, 2, &motion));
     PetscCall(SamSolveFindTouching(s, motion));
   }
-  PetscCall(Pack(s->task->grid, s->h, motion, result));
+  PetscCall(Pack(s->grid, s->h, motion, result));
   PetscCall(VecDestroy(&motion));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -159,12 +159,9 @@ static PetscErrorCode FindUnknown(SamSolve *s, Vec result)
 /* Steps 1 and 2. The first pass starts from the guesses, later passes from the last pass. */
 static PetscErrorCode Solve(Passes *p, PetscInt pass)
 {
-  SamSolve       *s            = p->s;
-  const PetscBool has_pressure = pass > 1 || s->has_pressure;
-  /* far from the solution nested grids find the slip zones of the new pressure faster than the last ones would */
-  const PetscBool has_shear = pass > 1 ? (p->error <= NEAR && !p->stuck) : s->has_shear;
-  const PetscBool brief     = p->error > EXACT && p->stuck < PATIENCE;
-  const PetscReal error     = PetscMin(p->error, FIRST);
+  SamSolve       *s     = p->s;
+  const PetscBool brief = p->error > EXACT && p->stuck < PATIENCE;
+  const PetscReal error = PetscMin(p->error, FIRST);
   /* the motion until cells touch need not settle, and follows from the shear of the first passes, too */
   const PetscReal part   = p->rough && s->touching ? PetscMin(error, SAM_ROUGH * p->rtol[1]) : error;
   const PetscReal rtol   = p->sharper * PetscMax(TANGENTIAL_FINAL * PetscMin(p->rtol[0], p->rtol[1]), part);
@@ -173,13 +170,13 @@ static PetscErrorCode Solve(Passes *p, PetscInt pass)
   PetscReal       left;
 
   PetscFunctionBegin;
-  SamSolverSetEffort(SamNormalAsSolver(s->task->normal), PetscMax(NORMAL_FINAL * p->rtol[0], NORMAL_PART * error),
+  SamSolverSetEffort(SamNormalAsSolver(s->solver), PetscMax(NORMAL_FINAL * p->rtol[0], NORMAL_PART * error),
                      p->looks ? SAM_EFFORT_FULL : SAM_EFFORT_CHECK_SUPPORT);
   /* Newton's method may get stuck on the shear of a pressure that is not smooth yet, and would waste iterations */
-  SamSolverSetEffort(SamTangentialAsSolver(s->task->tangential), rtol, effort);
+  SamSolverSetEffort(SamTangentialAsSolver(s->contact->tangential), rtol, effort);
   PetscCall(Unpack(p));
   PetscCall(VecCopy(s->lift, s->h));
-  PetscCall(SamSolveNormal(s, has_pressure, pass == 1 && s->has_shear));
+  PetscCall((pass == 1 ? SamSolveBegun : SamSolveNormal)(s));
   PetscCall(SamSolveJudge(s, SAM_BALANCE_NORMAL));
   PetscCall(SamSolveBound(s, s->s->bound));
   p->slides = PETSC_FALSE;
@@ -187,12 +184,14 @@ static PetscErrorCode Solve(Passes *p, PetscInt pass)
     PetscCall(SamSolveZeroShear(s));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
+  /* far from the solution nested grids find the slip zones of the new pressure faster than the last ones would */
+  if (pass > 1) s->has_shear = p->error <= NEAR && !p->stuck ? PETSC_TRUE : PETSC_FALSE;
   if (pass == 1) PetscCall(SamSolveSetAside(s, p->turns ? SAM_ASIDE_KEPT : SAM_ASIDE_PREDICTED));
-  PetscCall(SamSolveShear(s, has_shear, rtol, effort));
-  reason    = SamSolverGetReason(SamTangentialAsSolver(s->task->tangential));
+  PetscCall(SamSolveShear(s, rtol, effort));
+  reason    = SamSolverGetReason(SamTangentialAsSolver(s->contact->tangential));
   p->stuck  = brief && reason == SAM_SOLVER_DIVERGED_ITS ? p->stuck + 1 : 0;
-  p->slides = reason == SAM_SOLVER_DIVERGED_NO_EQUILIBRIUM && SamTangentialGetLimit(s->task->tangential) > 0;
-  PetscCall(SamSolverGetStatistics(SamTangentialAsSolver(s->task->tangential), &left, NULL, NULL, NULL));
+  p->slides = reason == SAM_SOLVER_DIVERGED_NO_EQUILIBRIUM && SamTangentialGetLimit(s->contact->tangential) > 0;
+  PetscCall(SamSolverGetStatistics(SamTangentialAsSolver(s->contact->tangential), &left, NULL, NULL, NULL));
   /* rounding may exceed the tolerance of a pass; then the user's tolerance decides */
   if (!p->slides && !p->stuck && !(reason == SAM_SOLVER_DIVERGED_STAGNATED && left <= p->rtol[1]))
     PetscCall(SamSolveJudge(s, SAM_BALANCE_TANGENTIAL));
@@ -209,12 +208,12 @@ static PetscErrorCode Measure(Passes *p, Vec result, PetscBool *solved)
 
   PetscFunctionBegin;
   PetscCall(FindUnknown(s, result));
-  SamSolverSetEffort(SamNormalAsSolver(s->task->normal), NORMAL_ENOUGH * p->rtol[0], SAM_EFFORT_RESIDUAL_ONLY);
-  PetscCall(SamSolveNormal(s, PETSC_TRUE, PETSC_FALSE));
-  reason = SamSolverGetReason(SamNormalAsSolver(s->task->normal));
+  SamSolverSetEffort(SamNormalAsSolver(s->solver), NORMAL_ENOUGH * p->rtol[0], SAM_EFFORT_RESIDUAL_ONLY);
+  PetscCall(SamSolveNormal(s));
+  reason = SamSolverGetReason(SamNormalAsSolver(s->solver));
   if (reason < 0 && reason != SAM_SOLVER_DIVERGED_ITS) PetscCall(SamSolveJudge(s, SAM_BALANCE_NORMAL));
-  PetscCall(SamSolverGetStatistics(SamNormalAsSolver(s->task->normal), &p->error, NULL, NULL, NULL));
-  PetscCall(SamSolverGetStatistics(SamTangentialAsSolver(s->task->tangential), &error, NULL, NULL, NULL));
+  PetscCall(SamSolverGetStatistics(SamNormalAsSolver(s->solver), &p->error, NULL, NULL, NULL));
+  PetscCall(SamSolverGetStatistics(SamTangentialAsSolver(s->contact->tangential), &error, NULL, NULL, NULL));
   p->looks = p->error > LOOK * before;
   p->waits = p->error < LOOK * p->least ? 0 : p->waits + 1;
   p->least = PetscMin(p->least, p->error);
@@ -251,7 +250,7 @@ static PetscErrorCode KeepCalm(Passes *p, PetscReal change)
   }
   if (change >= p->calmest) PetscFunctionReturn(PETSC_SUCCESS);
   p->calmest = change;
-  if (!p->calm) PetscCall(SamGridCreateVec(p->s->task->grid, 2, &p->calm));
+  if (!p->calm) PetscCall(SamGridCreateVec(p->s->grid, 2, &p->calm));
   PetscCall(VecCopy(p->s->touching, p->calm));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -260,15 +259,15 @@ static PetscErrorCode KeepCalm(Passes *p, PetscReal change)
 static PetscErrorCode Compare(Passes *p, PetscInt pass, PetscBool *solved)
 {
   SamSolve                 *s   = p->s;
-  const SamContactSettings *set = s->task->set;
+  const SamContactSettings *set = &s->contact->set;
   PetscReal                 change[2];
 
   PetscFunctionBegin;
-  PetscCall(ComputeChange(s->task->grid, s->s->pressure, s->previous_pressure, &change[0]));
-  PetscCall(ComputeChange(s->task->grid, s->s->shear, s->previous_shear, &change[1]));
+  PetscCall(ComputeChange(s->grid, s->s->pressure, s->previous_pressure, &change[0]));
+  PetscCall(ComputeChange(s->grid, s->s->shear, s->previous_shear, &change[1]));
   if (set->coupling_monitor)
-    PetscCall(PetscPrintf(s->task->grid->comm, "%5" PetscInt_FMT " coupling error %.6e change of p %.6e q %.6e%s\n",
-                          pass, (double)p->error, (double)change[0], (double)change[1], p->slides ? " slides" : ""));
+    PetscCall(PetscPrintf(s->grid->comm, "%5" PetscInt_FMT " coupling error %.6e change of p %.6e q %.6e%s\n", pass,
+                          (double)p->error, (double)change[0], (double)change[1], p->slides ? " slides" : ""));
   *solved = *solved && (pass == 1 || PetscMax(change[0], change[1]) <= set->coupling_rtol);
   if (SamSolveFindsTouching(s) && pass > 1) PetscCall(KeepCalm(p, change[1]));
   if (*solved && p->slides) PetscCall(SamSolveJudge(s, SAM_BALANCE_TANGENTIAL));
@@ -288,19 +287,19 @@ static PetscErrorCode FindDirection(Passes *p)
 /* Finds out if the errors are small enough for the slip's direction to be found by the shear so far. */
 static PetscErrorCode IsClose(const Passes *p, PetscBool *is)
 {
-  const SamSolution *const before  = p->s->task->before;
+  const SamSolution *const before  = p->s->before;
   PetscReal                allowed = SAM_ROUGH, change = 1, size = 1, error;
   Vec                      shear;
 
   PetscFunctionBegin;
-  PetscCall(SamSolverGetStatistics(SamTangentialAsSolver(p->s->task->tangential), &error, NULL, NULL, NULL));
+  PetscCall(SamSolverGetStatistics(SamTangentialAsSolver(p->s->contact->tangential), &error, NULL, NULL, NULL));
   error = PetscMax(error, p->error);
   if (!p->s->touching && error <= DIRECTION * p->rtol[1]) {
     if (before) {
       PetscCall(VecDuplicate(before->shear, &shear));
       PetscCall(VecWAXPY(shear, -1, before->shear, p->s->s->shear));
-      PetscCall(SamGridNorm(p->s->task->grid, shear, NORM_2, &change));
-      PetscCall(SamGridNorm(p->s->task->grid, p->s->s->shear, NORM_2, &size));
+      PetscCall(SamGridNorm(p->s->grid, shear, NORM_2, &change));
+      PetscCall(SamGridNorm(p->s->grid, p->s->s->shear, NORM_2, &size));
       PetscCall(VecDestroy(&shear));
     }
     if (size > 0) allowed = PetscMax(allowed, DIRECTION * PetscMin(change / size, 1));
@@ -394,7 +393,7 @@ static PetscErrorCode Fail(Passes *p)
   PetscCall(PetscSNPrintf(message, sizeof(message),
                           "the coupling of normal and tangential problem did not converge within %" PetscInt_FMT
                           " iterations, normal residual %.2g, tolerance %.2g",
-                          p->s->task->set->coupling_max_it, (double)p->error, (double)p->rtol[0]));
+                          p->s->contact->set.coupling_max_it, (double)p->error, (double)p->rtol[0]));
   PetscCall(SamStepFail(step, SAM_STATUS_NOT_CONVERGED, message));
   PetscCall(PetscStrncpy(step->setting, "coupling_max_it", sizeof(step->setting)));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -404,7 +403,6 @@ static PetscErrorCode Fail(Passes *p)
    steps before are better guesses. `found`: true if its contact is at the same place. */
 static PetscErrorCode TakeKept(SamSolve *s, PetscBool *found)
 {
-  const SamStepTask  *task    = s->task;
   const SamCachedStep kept    = s->kept;
   SamProduct          product = {.rounding = 0}; /* it is not used: the displacement is also by the pressure */
   Vec                 shear, pressure;
@@ -413,14 +411,14 @@ static PetscErrorCode TakeKept(SamSolve *s, PetscBool *found)
   *found  = PETSC_FALSE;
   s->kept = NULL;
   if (!SamCachedStepIsRepeated(kept)) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SamGridCreateVec(task->grid, 2, &product.field));
-  PetscCall(SamGridCreateVec(task->grid, 2, &shear));
-  PetscCall(SamGridCreateVec(task->grid, 1, &pressure));
+  PetscCall(SamGridCreateVec(s->grid, 2, &product.field));
+  PetscCall(SamGridCreateVec(s->grid, 2, &shear));
+  PetscCall(SamGridCreateVec(s->grid, 1, &pressure));
   PetscCall(VecCopy(s->s->pressure, pressure));
-  PetscCall(SamCachedStepGetPressure(kept, task->grid, s->s, found));
+  PetscCall(SamCachedStepGetPressure(kept, s->grid, s->s, found));
   if (*found) {
     PetscCall(SamSolveBound(s, s->s->bound));
-    PetscCall(SamCachedStepGetShear(kept, task->elasticity, task->before, s->s->bound, shear, &product, found));
+    PetscCall(SamCachedStepGetShear(kept, s->elasticity, s->before, s->s->bound, shear, &product, found));
   }
   PetscCall(*found ? VecCopy(shear, s->s->shear) : VecCopy(pressure, s->s->pressure));
   PetscCall(VecDestroy(&pressure));
@@ -433,20 +431,20 @@ static PetscErrorCode TakeKept(SamSolve *s, PetscBool *found)
 static PetscErrorCode Start(Passes *p)
 {
   SamSolve *const s      = p->s;
-  const SamSolver normal = SamNormalAsSolver(s->task->normal);
+  const SamSolver normal = SamNormalAsSolver(s->solver);
   PetscBool       kept;
 
   PetscFunctionBegin;
   PetscCall(TakeKept(s, &kept));
   s->has_pressure = s->has_pressure || kept;
   s->has_shear    = s->has_shear || kept;
-  p->turns        = kept && SamCachedStepHasTurn(s->task->start.kept);
+  p->turns        = kept && SamCachedStepHasTurn(s->contact->tried.start.kept);
   p->error        = s->has_shear ? GUESS : FIRST;
-  if (s->has_shear) PetscCall(SamElasticityApplyTangentialToNormal(s->task->elasticity, s->s->shear, s->lift));
+  if (s->has_shear) PetscCall(SamElasticityApplyTangentialToNormal(s->elasticity, s->s->shear, s->lift));
   if (!kept) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(VecCopy(s->lift, s->h));
   SamSolverSetEffort(normal, NORMAL_ENOUGH * p->rtol[0], SAM_EFFORT_RESIDUAL_ONLY);
-  PetscCall(SamSolveNormal(s, PETSC_TRUE, PETSC_FALSE));
+  PetscCall(SamSolveNormal(s));
   PetscCall(SamSolverGetStatistics(normal, &p->error, NULL, NULL, NULL));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -458,9 +456,9 @@ static PetscErrorCode HoldCalm(Passes *p)
   SamSolve *const s = p->s;
 
   PetscFunctionBegin;
-  if (s->task->set->coupling_monitor)
-    PetscCall(PetscPrintf(s->task->grid->comm, "      the motion until cells touch stays, change of q %.6e\n",
-                          (double)p->calmest));
+  if (s->monitor)
+    PetscCall(
+      PetscPrintf(s->grid->comm, "      the motion until cells touch stays, change of q %.6e\n", (double)p->calmest));
   PetscCall(FindDirection(p));
   PetscCall(VecAXPY(s->s->aside, -1, s->touching));
   PetscCall(VecCopy(p->calm, s->touching));
@@ -480,12 +478,13 @@ static PetscErrorCode Iterate(Passes *p, PetscBool *more)
 {
   SamSolve *const     s         = p->s;
   const PetscBool     touching  = SamSolveFindsTouching(s);
-  const SamFixedPoint iteration = {.components = touching ? 3 : 1, .most = s->task->set->coupling_max_it, .pass = Pass};
-  SamPassEnd          end;
+  const SamFixedPoint iteration = {
+    .components = touching ? 3 : 1, .most = s->contact->set.coupling_max_it, .pass = Pass};
+  SamPassEnd end;
 
   PetscFunctionBegin;
-  PetscCall(SamGridCreateVec(s->task->grid, iteration.components, &p->unknown));
-  PetscCall(Pack(s->task->grid, s->lift, touching ? s->touching : NULL, p->unknown));
+  PetscCall(SamGridCreateVec(s->grid, iteration.components, &p->unknown));
+  PetscCall(Pack(s->grid, s->lift, touching ? s->touching : NULL, p->unknown));
   PetscCall(SamSolveFixedPoint(s, &iteration, p, p->unknown, &end));
   PetscCall(VecDestroy(&p->unknown));
   *more = p->calm && !s->holds && end != SAM_PASS_SOLVED && s->step->status != SAM_STATUS_NO_EQUILIBRIUM;
@@ -495,7 +494,7 @@ static PetscErrorCode Iterate(Passes *p, PetscBool *more)
 
 PetscErrorCode SamSolveCoupled(SamSolve *s)
 {
-  const SamSolver normal = SamNormalAsSolver(s->task->normal), tangential = SamTangentialAsSolver(s->task->tangential);
+  const SamSolver normal = SamNormalAsSolver(s->solver), tangential = SamTangentialAsSolver(s->contact->tangential);
   Passes          p = {.s       = s,
                        .looks   = PETSC_TRUE,
                        .least   = INFINITY,

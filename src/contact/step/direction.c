@@ -72,7 +72,7 @@
 /* True if contact grows, and the shear determines the motion where it is made. */
 static PetscBool Grows(SamSolve *w)
 {
-  return SamApproachGrows(w->task->before, w->s);
+  return SamApproachGrows(w->before, w->s);
 }
 
 PetscBool SamSolveIsTwice(SamSolve *w)
@@ -89,25 +89,25 @@ static PetscErrorCode FindApproach(SamSolve *w, PetscBool found, SamApproach *a)
   for (PetscInt c = 0; c < 2; c++) {
     const PetscInt k = SamComponentsOf[SAM_BALANCE_TANGENTIAL][c];
 
-    loads[c] = w->task->before ? w->task->before->load[k] : 0;
+    loads[c] = w->before ? w->before->load[k] : 0;
     if (w->tangential.force[c]) loads[c] = (PetscReal)w->tangential.load[c];
     if (found) loads[c] = w->s->load[k];
   }
-  PetscCall(SamApproachFind(w->task->problem, w->task->state, w->task->before, w->s, loads, a));
+  PetscCall(SamApproachFind(w->contact->problem, w->contact->state, w->before, w->s, loads, a));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamSolveFindGaps(SamSolve *w, Vec gap)
 {
   PetscFunctionBegin;
-  PetscCall(SamApproachGaps(w->task->problem, w->task->before, w->s, w->separation, gap));
+  PetscCall(SamApproachGaps(w->contact->problem, w->before, w->s, w->separation, gap));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamSolveAddEntering(SamSolve *w, PetscBool found, PetscBool open, Vec motion)
 {
   const SamSolution *s     = w->s;
-  const SamGrid      grid  = w->task->grid;
+  const SamGrid      grid  = w->grid;
   const PetscInt     cells = grid->cells;
   double            *to, friction = 0; /* the largest */
   const double      *p, *b, *g;
@@ -117,7 +117,7 @@ PetscErrorCode SamSolveAddEntering(SamSolve *w, PetscBool found, PetscBool open,
   PetscFunctionBegin;
   if (!Grows(w)) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(FindApproach(w, found, &approach));
-  PetscCall(SamGridCreateVec(w->task->grid, 1, &gap));
+  PetscCall(SamGridCreateVec(w->grid, 1, &gap));
   PetscCall(SamSolveFindGaps(w, gap));
   PetscCall(VecGetArrayRead(gap, &g));
   PetscCall(VecGetArrayRead(s->pressure, &p));
@@ -145,14 +145,14 @@ PetscErrorCode SamSolveAddEntering(SamSolve *w, PetscBool found, PetscBool open,
 }
 
 /* Sets t in cells that slide all the time or begin to slide. */
-PetscErrorCode SamStepFindTurn(SamProblem problem, SamGrid grid, const SamSolution *before, const SamSolution *now,
-                               Vec turn)
+PetscErrorCode SamStepFindTurn(SamContact contact, Vec turn)
 {
-  SamIncrement increment;
-  double      *t, *to[2], share[2];
+  const SamGrid grid = contact->grid;
+  SamIncrement  increment;
+  double       *t, *to[2], share[2];
 
   PetscFunctionBegin;
-  PetscCall(SamIncrementCreate(problem, before, now, &increment));
+  PetscCall(SamIncrementCreate(contact->problem, contact->tried.before, &contact->generation[SAM_TRIED], &increment));
   PetscCall(VecGetArray(turn, &t));
   for (PetscInt j = 0; j < grid->rows; j++) {
     const ptrdiff_t first = (ptrdiff_t)j * grid->nx;
@@ -176,7 +176,7 @@ static PetscErrorCode SetTurn(SamSolve *w, Vec aside)
 {
   PetscFunctionBegin;
   PetscCall(SamSolveDisplace(w));
-  PetscCall(SamStepFindTurn(w->task->problem, w->task->grid, w->task->before, w->s, aside));
+  PetscCall(SamStepFindTurn(w->contact, aside));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -186,9 +186,9 @@ static PetscErrorCode SetTurn(SamSolve *w, Vec aside)
 */
 static PetscErrorCode PredictTurn(SamSolve *w, Vec aside)
 {
-  const SamSolution *last = w->task->before, *earlier = w->task->earlier;
-  const double       scale = w->task->start.along * w->task->start.along;
-  const PetscInt     cells = w->task->grid->cells;
+  const SamSolution *last = w->before, *earlier = &w->contact->generation[SAM_BEFORE];
+  const double       scale = w->contact->tried.start.along * w->contact->tried.start.along;
+  const PetscInt     cells = w->grid->cells;
   const double      *p, *p0, *t, *q, *q0;
   double            *to;
 
@@ -229,14 +229,14 @@ PetscErrorCode SamSolveSetAside(SamSolve *w, SamAsideFrom from)
 
   PetscFunctionBegin;
   if (!SamSolveSetsAside(w)) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SamGridCreateVec(w->task->grid, 2, &aside));
+  PetscCall(SamGridCreateVec(w->grid, 2, &aside));
   if (SamSolveTurns(w) && from == SAM_ASIDE_KEPT)
-    PetscCall(SamCachedStepAddTurn(w->task->start.kept, w->task->grid, aside));
+    PetscCall(SamCachedStepAddTurn(w->contact->tried.start.kept, w->grid, aside));
   else if (SamSolveTurns(w))
     PetscCall((solved ? SetTurn : PredictTurn)(w, aside));
   PetscCall(SamSolveAddEntering(w, solved, PETSC_FALSE, aside));
   if (w->touching) PetscCall(VecAXPY(aside, 1, w->touching));
-  PetscCall(SamStateSetField(w->task->state, w->task->aside, &w->s->aside));
+  PetscCall(SamStateSetField(w->contact->state, w->contact->aside, &w->s->aside));
   PetscCall(VecCopy(aside, w->s->aside));
   PetscCall(VecDestroy(&aside));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -19,7 +19,7 @@ static PetscErrorCode CutNegative(SamGrid grid, Vec field)
 
 PetscErrorCode SamSolveFixedPoint(SamSolve *w, const SamFixedPoint *f, void *context, Vec argument, SamPassEnd *end)
 {
-  const SamGrid grid = w->task->grid;
+  const SamGrid grid = w->grid;
   SamMixing     m;
   Vec           result;
 
@@ -43,7 +43,7 @@ PetscErrorCode SamSolveFixedPoint(SamSolve *w, const SamFixedPoint *f, void *con
 PetscErrorCode SamSolveGetChange(SamSolve *w, Vec argument, Vec result, PetscReal unit, PetscReal *change,
                                  PetscReal *largest)
 {
-  const SamGrid grid = w->task->grid;
+  const SamGrid grid = w->grid;
   PetscReal     size, shear, bound;
   Vec           difference;
 

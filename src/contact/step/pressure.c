@@ -13,23 +13,24 @@ PetscErrorCode SamSolveCount(SamSolver solver, double counts[3])
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamSolvePressureOnce(SamSolve *w, Vec h, PetscBool has_pressure)
+PetscErrorCode SamSolvePressureOnce(SamSolve *w, Vec h)
 {
   SamBalance balance = w->normal;
 
   PetscFunctionBegin;
   for (PetscInt k = 0; k < 3; k++)
     if (balance.force[k]) balance.rigid[k] = w->s->rigid[SamComponentsOf[SAM_BALANCE_NORMAL][k]]; /* of the last pass */
-  PetscCall(SamNormalSolveKeeping(w->task->normal, h, &balance, has_pressure, w->s->pressure,
-                                  w->task->coupled ? &w->pressure_product : NULL));
+  PetscCall(SamNormalSolveKeeping(w->solver, h, &balance, w->has_pressure, w->s->pressure,
+                                  w->pressure_product.field ? &w->pressure_product : NULL));
+  w->has_pressure = PETSC_TRUE;
   SamBalanceStore(&balance, w->s->load, w->s->rigid);
-  PetscCall(SamSolveCount(SamNormalAsSolver(w->task->normal), w->counts + SAM_COUNT_NORMAL));
+  PetscCall(SamSolveCount(SamNormalAsSolver(w->solver), w->counts + SAM_COUNT_NORMAL));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamSolvePressure(SamSolve *w, Vec h, PetscBool has_pressure)
+PetscErrorCode SamSolvePressure(SamSolve *w, Vec h)
 {
   PetscFunctionBegin;
-  PetscCall((w->task->traits.skewed ? SamSolveSkewed : SamSolvePressureOnce)(w, h, has_pressure));
+  PetscCall((w->contact->traits.skewed ? SamSolveSkewed : SamSolvePressureOnce)(w, h));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

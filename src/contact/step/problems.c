@@ -14,7 +14,7 @@
 /* Writes the message for loads that no pressure balances, or for an approach that is too large, with the limit. */
 static PetscErrorCode DescribeImpossible(SamSolve *w, char message[], size_t size)
 {
-  const SamGrid grid = w->task->grid;
+  const SamGrid grid = w->grid;
   PetscBool     possible;
   PetscReal     sum, limit;
 
@@ -24,16 +24,16 @@ static PetscErrorCode DescribeImpossible(SamSolve *w, char message[], size_t siz
                             SamSolveTiltCure(w)));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
-  PetscCall(SamProblemGetPressureLimit(w->task->problem, &limit));
+  PetscCall(SamProblemGetPressureLimit(w->contact->problem, &limit));
   PetscCall(SamBalanceLever(grid, &w->normal, message, size, &possible));
   if (possible) PetscCall(SamBalanceCapacity(grid, &w->normal, limit, message, size, &possible));
   if (!possible) PetscFunctionReturn(PETSC_SUCCESS);
-  if (w->normal.force[0] || w->task->traits.mean) {
+  if (w->normal.force[0] || w->contact->traits.mean) {
     PetscCall(PetscStrncpy(message, "no pressure on this grid balances the normal loads", size));
     if (isfinite(limit)) PetscCall(PetscStrlcat(message, " within pressure_limit", size));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
-  PetscCall(VecSum(SamProblemGetGap(w->task->problem), &sum));
+  PetscCall(VecSum(SamProblemGetGap(w->contact->problem), &sum));
   PetscCall(
     PetscSNPrintf(message, size,
                   "disp_z = %.8g m brings the mean planes together (limit %.8g, their mean separation): in full "
@@ -45,7 +45,7 @@ static PetscErrorCode DescribeImpossible(SamSolve *w, char message[], size_t siz
 /* Copies the pressure of the committed state if nothing that it depends on has changed. */
 static PetscErrorCode TakePressure(SamSolve *w)
 {
-  const SamSolution *from = w->task->committed;
+  const SamSolution *from = w->contact->tried.last;
 
   PetscFunctionBegin;
   PetscCall(SamVecCopyNonzero(from->pressure, w->s->pressure));
@@ -61,9 +61,10 @@ static PetscErrorCode TakePressure(SamSolve *w)
 PetscErrorCode SamSolveGetSeparation(SamSolve *w, Vec *h)
 {
   PetscFunctionBegin;
-  if (w->task->coupled) PetscCall(VecAXPY(w->h, 1, w->separation));
-  if (w->h && !w->task->coupled) PetscCall(VecCopy(w->separation, w->h));
-  if (w->h) PetscCall(SamProblemDisplace(w->task->problem, w->task->state, &w->s->control, w->h, NULL, NULL, NULL));
+  if (SamContactIsCoupled(w->contact)) PetscCall(VecAXPY(w->h, 1, w->separation));
+  if (w->h && !SamContactIsCoupled(w->contact)) PetscCall(VecCopy(w->separation, w->h));
+  if (w->h)
+    PetscCall(SamProblemDisplace(w->contact->problem, w->contact->state, &w->s->control, w->h, NULL, NULL, NULL));
   if (w->pulled) PetscCall(VecAXPY(w->h, -1, w->pulled));
   *h = w->h ? w->h : w->separation;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -99,41 +100,52 @@ static PetscBool IsKnown(const SamSolve *w)
 {
   SamControl before = w->s->control;
 
-  if (!SamCachedStepHasPressure(w->kept, &w->task->of)) return PETSC_FALSE;
+  if (!SamCachedStepHasPressure(w->kept, &w->contact->tried.of)) return PETSC_FALSE;
   SamCachedStepGetControl(w->kept, &before);
   return SamControlIsSame(&before, &w->s->control, SAM_BALANCE_NORMAL);
 }
 
 /* Solves the normal problem with this separation, and with the tension of its gap. */
-static PetscErrorCode SolvePressure(SamSolve *w, Vec h, PetscBool has_pressure)
+static PetscErrorCode SolvePressure(SamSolve *w, Vec h)
 {
   PetscFunctionBegin;
-  if (!SamSolveIsApart(w))
-    PetscCall(w->pulled ? SamSolveAttraction(w, h, has_pressure) : SamSolvePressure(w, h, has_pressure));
+  if (!SamSolveIsApart(w)) PetscCall(w->pulled ? SamSolveAttraction(w, h) : SamSolvePressure(w, h));
   if (SamSolveIsApart(w)) PetscCall(SamSolveFailApart(w));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamSolveNormal(SamSolve *w, PetscBool has_pressure, PetscBool has_shear)
+PetscErrorCode SamSolveNormal(SamSolve *w)
 {
-  Vec predicted = NULL, h = NULL;
+  SamTried *const tried = &w->contact->tried;
+  Vec             h     = NULL;
 
   PetscFunctionBegin;
-  if (w->task->same_pressure) {
+  if (tried->same_pressure) {
     PetscCall(TakePressure(w));
+    tried->known_pressure = PETSC_TRUE;
+  } else if (IsKnown(w)) {
+    PetscCall(SamCachedStepGetPressure(w->kept, w->grid, w->s, &tried->known_pressure));
+  } else {
+    tried->known_pressure = PETSC_FALSE;
+    PetscCall(SamSolveGetSeparation(w, &h));
+    PetscCall(SolvePressure(w, h));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSolveBegun(SamSolve *w)
+{
+  Vec predicted;
+
+  PetscFunctionBegin;
+  if (!w->has_shear) {
+    PetscCall(SamSolveNormal(w));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
-  if (IsKnown(w)) {
-    PetscCall(SamCachedStepGetPressure(w->kept, w->task->grid, w->s, &w->known_pressure));
-    PetscFunctionReturn(PETSC_SUCCESS);
-  }
-  PetscCall(SamSolveGetSeparation(w, &h));
-  if (has_shear) {
-    PetscCall(SamGridCreateVec(w->task->grid, 1, &predicted));
-    PetscCall(SamVecCopyNonzero(w->s->pressure, predicted));
-  }
-  PetscCall(SolvePressure(w, h, has_pressure));
-  if (has_shear) PetscCall(FollowPressure(w->task->grid, predicted, w->s->pressure, w->s->shear));
+  PetscCall(SamGridCreateVec(w->grid, 1, &predicted));
+  PetscCall(SamVecCopyNonzero(w->s->pressure, predicted));
+  PetscCall(SamSolveNormal(w));
+  if (!w->contact->tried.known_pressure) PetscCall(FollowPressure(w->grid, predicted, w->s->pressure, w->s->shear));
   PetscCall(VecDestroy(&predicted));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -146,7 +158,7 @@ PetscErrorCode SamSolveNormal(SamSolve *w, PetscBool has_pressure, PetscBool has
 */
 static PetscErrorCode DescribeSliding(SamSolve *w, char message[], size_t size)
 {
-  const PetscBool follows = SamProblemFollowsSlip(w->task->problem);
+  const PetscBool follows = SamProblemFollowsSlip(w->contact->problem);
   PetscInt        loaded  = 0;
   PetscBool       friction;
   char            instead[64] = "; for gross slip give ";
@@ -162,20 +174,21 @@ static PetscErrorCode DescribeSliding(SamSolve *w, char message[], size_t size)
 
     if (!w->tangential.force[k] || load == 0) continue;
     PetscCall(PetscSNPrintf(text, sizeof(text), "%s%s = %.8g %s (%s%.8g%s)", loaded++ ? ", " : "", name->load, load,
-                            SamUnitOn(w->task->grid, name->load_unit), follows ? "" : "limit ",
-                            (double)SamTangentialGetLimit(w->task->tangential) * load + 0.0, /* avoids -0 */
+                            SamUnitOn(w->grid, name->load_unit), follows ? "" : "limit ",
+                            (double)SamTangentialGetLimit(w->contact->tangential) * load + 0.0, /* avoids -0 */
                             follows ? " at the slip of the last iteration" : ""));
     PetscCall(PetscStrlcat(message, text, size));
     if (loaded > 1) PetscCall(PetscStrlcat(instead, ", ", sizeof(instead)));
-    PetscCall(PetscStrlcat(
-      instead, w->s->rolled != 0 ? name->creep : SamMotionRigidName(w->task->motion, component).name, sizeof(instead)));
+    PetscCall(PetscStrlcat(instead,
+                           w->s->rolled != 0 ? name->creep : SamMotionRigidName(w->contact->motion, component).name,
+                           sizeof(instead)));
   }
-  PetscCall(SamProblemHasFriction(w->task->problem, &friction));
+  PetscCall(SamProblemHasFriction(w->contact->problem, &friction));
   if (friction && w->s->load[SAM_COMPONENT_N] == 0) {
     PetscCall(PetscStrlcat(message, " cannot be balanced: the normal force is 0, so friction bears nothing", size));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
-  cure = follows && w->task->motion->continues ? ": use smaller load steps" : instead;
+  cure = follows && w->contact->motion->continues ? ": use smaller load steps" : instead;
   PetscCall(PetscStrlcat(message, " cannot be balanced ", size));
   PetscCall(PetscStrlcat(message, friction ? "by |q| <= mu p" : "without friction: give -friction", size));
   if (friction) PetscCall(PetscStrlcat(message, cure, size));
@@ -194,7 +207,7 @@ static const char *CureOfMotion(SamSolve *w)
 {
   const SamBalance *t = &w->tangential;
 
-  return w->task->traits.patch && !(t->force[0] && t->force[1] && t->force[2])
+  return w->contact->traits.patch && !(t->force[0] && t->force[1] && t->force[2])
            ? ": finite bodies that move as wholes are solved by load_tx, load_ty and load_mz, or by petsam-joint"
            : "";
 }
@@ -225,8 +238,8 @@ static PetscErrorCode DescribeFailure(SamSolve *w, SamBalanceKind kind, SamSolve
 
 PetscErrorCode SamSolveJudge(SamSolve *w, SamBalanceKind kind)
 {
-  const PetscBool normal = kind == SAM_BALANCE_NORMAL;
-  const SamSolver solver = normal ? SamNormalAsSolver(w->task->normal) : SamTangentialAsSolver(w->task->tangential);
+  const PetscBool       normal = kind == SAM_BALANCE_NORMAL;
+  const SamSolver       solver = normal ? SamNormalAsSolver(w->solver) : SamTangentialAsSolver(w->contact->tangential);
   const SamSolverReason reason = SamSolverGetReason(solver);
   char                  message[sizeof(w->step->message)];
 
@@ -264,35 +277,36 @@ static PetscErrorCode AddStrain(SamGrid grid, const SamStrain *e, Vec field)
 
 PetscErrorCode SamSolveCreateOffset(SamSolve *w, Vec *offset)
 {
-  const SamStepTask *task = w->task;
-  SamStrain          e;
-  PetscBool          strained;
-  double            *slip;
+  SamStrain e;
+  PetscBool strained;
+  double   *slip;
 
   PetscFunctionBegin;
   *offset = NULL;
-  PetscCall(SamProblemDisplace(task->problem, task->state, &w->s->control, NULL, NULL, &e, NULL));
+  PetscCall(SamProblemDisplace(w->contact->problem, w->contact->state, &w->s->control, NULL, NULL, &e, NULL));
   strained = e.xx != 0 || e.yy != 0 || e.xy != 0;
-  if (!w->pushed && !w->task->before && !strained && !w->s->aside) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SamGridCreateVec(task->grid, 2, offset));
-  if (w->task->before) {
+  if (!w->pushed && !w->before && !strained && !w->s->aside) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamGridCreateVec(w->grid, 2, offset));
+  if (w->before) {
     PetscCall(VecGetArray(*offset, &slip));
     for (PetscInt k = 0; k < 2; k++)
-      PetscCall(SamSolutionComputeSlip(task->problem, w->task->before, k, slip + k * task->grid->cells));
+      PetscCall(SamSolutionComputeSlip(w->contact->problem, w->before, k, slip + k * w->grid->cells));
     PetscCall(VecRestoreArray(*offset, &slip));
     PetscCall(VecScale(*offset, -1));
   }
   if (w->pushed) PetscCall(VecAXPY(*offset, 1, w->pushed));
-  if (strained) PetscCall(AddStrain(task->grid, &e, *offset));
+  if (strained) PetscCall(AddStrain(w->grid, &e, *offset));
   if (w->s->aside) PetscCall(VecAXPY(*offset, -1, w->s->aside));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamStepSetDisplacements(SamState state, const PetscInt fields[2], SamSolution *tried)
+PetscErrorCode SamStepSetDisplacements(SamContact c)
 {
+  SamSolution *const tried = &c->generation[SAM_TRIED];
+
   PetscFunctionBegin;
-  PetscCall(SamStateSetField(state, fields[0], &tried->displacement_z));
-  PetscCall(SamStateSetField(state, fields[1], &tried->displacement_t));
+  PetscCall(SamStateSetField(c->state, c->displacements[0], &tried->displacement_z));
+  PetscCall(SamStateSetField(c->state, c->displacements[1], &tried->displacement_t));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -301,11 +315,11 @@ PetscErrorCode SamSolveDisplace(SamSolve *w)
   const PetscBool known = w->shear_product.n[0] > 0 ? PETSC_TRUE : PETSC_FALSE;
 
   PetscFunctionBegin;
-  PetscCall(SamStepSetDisplacements(w->task->state, w->task->displacements, w->s));
+  PetscCall(SamStepSetDisplacements(w->contact));
   if (known)
     PetscCall(VecCopy(w->shear_product.field, w->s->displacement_t));
   else
-    PetscCall(SamElasticityApplyTangential(w->task->elasticity, w->s->shear, w->s->displacement_t));
+    PetscCall(SamElasticityApplyTangential(w->elasticity, w->s->shear, w->s->displacement_t));
   if (w->pushed) PetscCall(VecAXPY(w->s->displacement_t, 1, w->pushed));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -316,21 +330,21 @@ PetscErrorCode SamSolveDisplace(SamSolve *w)
 */
 static PetscErrorCode SolveFromKept(SamSolve *w, SamCachedStep kept, Vec offset, SamBalance *balance, PetscBool *solved)
 {
-  const SamStepTask *task    = w->task;
-  const SamSolver    solver  = SamTangentialAsSolver(task->tangential);
-  const SamEffort    effort  = solver->effort;
-  const PetscReal    enough  = solver->enough;
-  SamProduct         product = {.rounding = 0};
-  Vec                shear;
+  const SamSolver solver  = SamTangentialAsSolver(w->contact->tangential);
+  const SamEffort effort  = solver->effort;
+  const PetscReal enough  = solver->enough;
+  SamProduct      product = {.rounding = 0};
+  Vec             shear;
 
   PetscFunctionBegin;
   *solved = PETSC_FALSE;
-  PetscCall(SamGridCreateVec(task->grid, 2, &product.field));
-  PetscCall(SamGridCreateVec(task->grid, 2, &shear));
-  PetscCall(SamCachedStepGetShear(kept, task->elasticity, w->task->before, w->s->bound, shear, &product, solved));
+  PetscCall(SamGridCreateVec(w->grid, 2, &product.field));
+  PetscCall(SamGridCreateVec(w->grid, 2, &shear));
+  PetscCall(SamCachedStepGetShear(kept, w->elasticity, w->before, w->s->bound, shear, &product, solved));
   if (*solved) {
     SamSolverSetEffort(solver, enough, SAM_EFFORT_WARM);
-    PetscCall(SamTangentialSolveKeeping(task->tangential, w->s->bound, offset, balance, PETSC_TRUE, shear, &product));
+    PetscCall(
+      SamTangentialSolveKeeping(w->contact->tangential, w->s->bound, offset, balance, PETSC_TRUE, shear, &product));
     SamSolverSetEffort(solver, enough, effort);
     *solved = SamSolverGetReason(solver) > 0 ? PETSC_TRUE : PETSC_FALSE;
     if (!*solved) PetscCall(SamSolveCount(solver, w->counts + SAM_COUNT_TANGENTIAL));
@@ -346,7 +360,7 @@ static PetscErrorCode SolveFromKept(SamSolve *w, SamCachedStep kept, Vec offset,
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamSolveTangential(SamSolve *w, PetscBool has_shear)
+PetscErrorCode SamSolveTangential(SamSolve *w)
 {
   SamBalance balance = w->tangential, given;
   PetscBool  solved  = PETSC_FALSE;
@@ -361,13 +375,14 @@ PetscErrorCode SamSolveTangential(SamSolve *w, PetscBool has_shear)
   w->kept = NULL; /* later passes start from the last pass */
   if (!solved) {
     balance = given;
-    PetscCall(SamTangentialSolveKeeping(w->task->tangential, w->s->bound, offset, &balance, has_shear, w->s->shear,
-                                        w->shear_product.field ? &w->shear_product : NULL));
+    PetscCall(SamTangentialSolveKeeping(w->contact->tangential, w->s->bound, offset, &balance, w->has_shear,
+                                        w->s->shear, w->shear_product.field ? &w->shear_product : NULL));
   }
   PetscCall(VecDestroy(&offset));
+  w->has_shear = PETSC_TRUE;
   for (PetscInt k = 0; k < 3; k++) w->rigid[k] = balance.rigid[k]; /* of the next pass */
   SamBalanceStore(&balance, w->s->load, w->s->rigid);
-  PetscCall(SamSolveCount(SamTangentialAsSolver(w->task->tangential), w->counts + SAM_COUNT_TANGENTIAL));
+  PetscCall(SamSolveCount(SamTangentialAsSolver(w->contact->tangential), w->counts + SAM_COUNT_TANGENTIAL));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -60,14 +60,14 @@ static PetscErrorCode FindExactSlopes(SamSolve *w, SamElasticity of, Vec pressur
   Vec           moved;
 
   PetscFunctionBegin;
-  PetscCall(SamGridCreateVec(w->task->grid, 1, &moved));
-  PetscCall(SamElasticityApplyNormal(w->task->elasticity, pressure, moved));
+  PetscCall(SamGridCreateVec(w->grid, 1, &moved));
+  PetscCall(SamElasticityApplyNormal(w->elasticity, pressure, moved));
   PetscCall(VecGetArrayRead(moved, &u));
   PetscCall(VecGetArray(slopes, &slope));
   PetscCall((*of->ops.slope)(of, &u, &slope));
   PetscCall(VecRestoreArray(slopes, &slope));
   PetscCall(VecRestoreArrayRead(moved, &u));
-  PetscCall(VecScale(slopes, -w->task->grid->dx));
+  PetscCall(VecScale(slopes, -w->grid->dx));
   PetscCall(VecDestroy(&moved));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -75,8 +75,8 @@ static PetscErrorCode FindExactSlopes(SamSolve *w, SamElasticity of, Vec pressur
 /* Computes the slopes of the separation of the undeformed bodies along x, m a cell, in cells that bear the pressure. */
 static PetscErrorCode FindSlopes(SamSolve *w, Vec pressure, Vec slopes)
 {
-  const SamGrid grid = w->task->grid;
-  SamElasticity of   = w->task->elasticity;
+  const SamGrid grid = w->grid;
+  SamElasticity of   = w->elasticity;
   const double *h;
   double       *slope;
 
@@ -99,15 +99,15 @@ static PetscErrorCode FindSlopes(SamSolve *w, Vec pressure, Vec slopes)
    the moment of the pressure relative to the radius if that is a parabola and nothing tilts. */
 static PetscErrorCode FindForce(SamSolve *w, double *force)
 {
-  const SamGrid grid  = w->task->grid;
+  const SamGrid grid  = w->grid;
   SamTotal      total = {0};
   SamRigid      motion;
   const double *p, *slope;
   Vec           slopes, pressure;
 
   PetscFunctionBegin;
-  PetscCall(SamRigidSet(&motion, w->task->problem, w->s));
-  PetscCall(SamSolutionCreateTotal(w->task->problem, w->s, &pressure));
+  PetscCall(SamRigidSet(&motion, w->contact->problem, w->s));
+  PetscCall(SamSolutionCreateTotal(w->contact->problem, w->s, &pressure));
   PetscCall(SamGridCreateVec(grid, 1, &slopes));
   PetscCall(FindSlopes(w, pressure, slopes));
   PetscCall(VecGetArrayRead(pressure, &p));
@@ -133,38 +133,38 @@ static PetscErrorCode FindForce(SamSolve *w, double *force)
    resistance there, NAN without a solution. */
 static PetscErrorCode FindCoarse(SamSolve *w, SamElasticity bodies, SamTransfer transfer, double *force)
 {
-  const SamGrid      grid     = SamElasticityGetGrid(bodies);
-  SamStepTask        task     = *w->task;
-  SamContactSettings quiet    = *task.set;
-  SamSolution        solution = *w->s;
-  SamStep            step     = *w->step;
-  double             counts[SAM_COUNTS];
-  SamSolve           coarse = {.task = &task, .s = &solution, .step = &step, .normal = w->normal, .counts = counts};
-  Vec                h, fine = w->separation;
+  const SamGrid grid     = SamElasticityGetGrid(bodies);
+  SamSolution   solution = *w->s;
+  SamStep       step     = *w->step;
+  double        counts[SAM_COUNTS];
+  SamSolve      coarse = {.contact      = w->contact,
+                          .grid         = grid,
+                          .elasticity   = bodies,
+                          .s            = &solution,
+                          .step         = &step,
+                          .has_pressure = PETSC_TRUE,
+                          .normal       = w->normal,
+                          .counts       = counts};
+  Vec           h, fine = w->separation;
 
   PetscFunctionBegin;
-  quiet.coupling_monitor = PETSC_FALSE;
-  task.set               = &quiet;
-  task.elasticity        = bodies;
-  task.grid              = grid;
-  task.coupled           = PETSC_FALSE; /* the lift is a part of the separation */
   coarse.normal.force[0] = PETSC_TRUE;
   coarse.normal.load[0]  = w->s->load[SAM_COMPONENT_N];
   PetscCall(PetscArrayzero(counts, SAM_COUNTS));
-  PetscCall(SamSolveCreateCoarseNormal(w, bodies, &task.normal));
+  PetscCall(SamSolveCreateCoarseNormal(w, bodies, &coarse.solver));
   PetscCall(SamGridCreateVec(grid, 1, &h));
   PetscCall(SamGridCreateVec(grid, 1, &coarse.separation));
   PetscCall(SamGridCreateVec(grid, 1, &solution.pressure));
-  if (w->task->coupled) PetscCall(VecCopy(w->lift, w->h));
+  if (SamContactIsCoupled(w->contact)) PetscCall(VecCopy(w->lift, w->h));
   PetscCall(SamSolveGetSeparation(w, &fine));
   PetscCall(SamTransferRestrict(transfer, fine, h));
   PetscCall(SamTransferRestrict(transfer, w->separation, coarse.separation));
   PetscCall(SamTransferRestrict(transfer, w->s->pressure, solution.pressure));
-  PetscCall(SamSolveSkewed(&coarse, h, PETSC_TRUE));
+  PetscCall(SamSolveSkewed(&coarse, h));
   *force = NAN;
-  if (SamSolverGetReason(SamNormalAsSolver(task.normal)) > 0 && step.status == SAM_STATUS_CONVERGED)
+  if (SamSolverGetReason(SamNormalAsSolver(coarse.solver)) > 0 && step.status == SAM_STATUS_CONVERGED)
     PetscCall(FindForce(&coarse, force));
-  PetscCall(SamNormalDestroy(&task.normal));
+  PetscCall(SamNormalDestroy(&coarse.solver));
   PetscCall(VecDestroy(&h));
   PetscCall(VecDestroy(&coarse.separation));
   PetscCall(VecDestroy(&solution.pressure));
@@ -179,7 +179,7 @@ static PetscBool IsEven(SamGrid grid)
 
 PetscErrorCode SamSolveResistance(SamSolve *w)
 {
-  const SamState state  = w->task->state;
+  const SamState state  = w->contact->state;
   double *const  number = SamStateNumbers(state, SamStateFindNumber(state, RESISTANCE), SAM_TRIED);
   double *const  fine   = SamStateNumbers(state, SamStateFindNumber(state, FINE_RESISTANCE), SAM_TRIED);
   SamElasticity  bodies = NULL;
@@ -189,8 +189,8 @@ PetscErrorCode SamSolveResistance(SamSolve *w)
   PetscFunctionBegin;
   PetscCall(FindForce(w, number));
   *fine = NAN;
-  if (w->task->set->extrapolate && !w->task->traits.periodic && !w->s->tension && IsEven(w->task->grid))
-    PetscCall(SamElasticityGetCoarse(w->task->elasticity, &bodies, &transfer));
+  if (w->contact->set.extrapolate && !w->contact->traits.periodic && !w->s->tension && IsEven(w->grid))
+    PetscCall(SamElasticityGetCoarse(w->elasticity, &bodies, &transfer));
   if (!bodies) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(FindCoarse(w, bodies, transfer, &coarse));
   *fine = *number + (*number - coarse) / 3;

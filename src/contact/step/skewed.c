@@ -21,7 +21,6 @@
 typedef struct {
   SamSolve     *w;
   SamElasticity symmetric;
-  PetscBool     guess; /* the tried solution holds a pressure */
   PetscReal     rtol;  /* relative to the displacement by C */
   PetscReal     error; /* of the gap after a pass, likewise */
   Vec           argument, h, moved, other, change;
@@ -31,7 +30,7 @@ typedef struct {
 static PetscErrorCode ApplyDifference(Passes *p, Vec pressure, Vec out, PetscReal most[2])
 {
   PetscFunctionBegin;
-  PetscCall(SamElasticityApplyNormal(p->w->task->elasticity, pressure, out));
+  PetscCall(SamElasticityApplyNormal(p->w->elasticity, pressure, out));
   PetscCall(SamElasticityApplyNormal(p->symmetric, pressure, p->other));
   PetscCall(VecNorm(out, NORM_INFINITY, &most[0]));
   PetscCall(VecNorm(p->other, NORM_INFINITY, &most[1]));
@@ -43,7 +42,7 @@ static PetscErrorCode Pass(void *context, PetscInt pass, Vec result, SamPassEnd 
 {
   Passes *const   p      = (Passes *)context;
   SamSolve *const w      = p->w;
-  const SamSolver solver = SamNormalAsSolver(w->task->normal);
+  const SamSolver solver = SamNormalAsSolver(w->solver);
   PetscReal       most[2], unused[2], wrong;
 
   PetscFunctionBegin;
@@ -51,17 +50,16 @@ static PetscErrorCode Pass(void *context, PetscInt pass, Vec result, SamPassEnd 
   PetscCall(
     SamSolverSetTolerances(solver, PART * p->rtol * (most[0] > 0 ? PetscMin(1, most[0] / most[1]) : 1), PETSC_DEFAULT));
   PetscCall(VecAXPY(p->moved, 1, p->h));
-  PetscCall(SamSolvePressureOnce(w, p->moved, p->guess));
-  p->guess = PETSC_TRUE;
-  *end     = SAM_PASS_FAILED;
+  PetscCall(SamSolvePressureOnce(w, p->moved));
+  *end = SAM_PASS_FAILED;
   if (SamSolverGetReason(solver) < 0) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(VecCopy(w->s->pressure, result));
   PetscCall(VecWAXPY(p->change, -1, p->argument, result));
   PetscCall(ApplyDifference(p, p->change, p->moved, unused));
   PetscCall(VecNorm(p->moved, NORM_INFINITY, &wrong));
   p->error = wrong > 0 ? wrong / PetscMax(most[0], wrong) : 0;
-  if (w->task->set->coupling_monitor)
-    PetscCall(PetscPrintf(w->task->grid->comm, "%5" PetscInt_FMT " creep gap error %.6e\n", pass, (double)p->error));
+  if (w->monitor)
+    PetscCall(PetscPrintf(w->grid->comm, "%5" PetscInt_FMT " creep gap error %.6e\n", pass, (double)p->error));
   *end = p->error <= PART * p->rtol ? SAM_PASS_SOLVED : SAM_PASS_GOES_ON;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -79,19 +77,19 @@ static PetscErrorCode Fail(SamSolve *w, PetscReal error)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamSolveSkewed(SamSolve *w, Vec h, PetscBool has_pressure)
+PetscErrorCode SamSolveSkewed(SamSolve *w, Vec h)
 {
   static const SamFixedPoint iteration = {.components = 1, .most = PASSES, .nonnegative = PETSC_TRUE, .pass = Pass};
-  Passes                     p         = {.w = w, .guess = has_pressure, .h = h};
+  Passes                     p         = {.w = w, .h = h};
   Vec *const                 created[] = {&p.argument, &p.moved, &p.other, &p.change};
-  const SamSolver            solver    = SamNormalAsSolver(w->task->normal);
+  const SamSolver            solver    = SamNormalAsSolver(w->solver);
   SamPassEnd                 end;
 
   PetscFunctionBegin;
   PetscCall(SamSolverGetTolerances(solver, &p.rtol, NULL));
-  PetscCall(SamElasticityGetSymmetric(w->task->elasticity, &p.symmetric));
-  for (int k = 0; k < 4; k++) PetscCall(SamGridCreateVec(w->task->grid, 1, created[k]));
-  if (has_pressure) PetscCall(VecCopy(w->s->pressure, p.argument));
+  PetscCall(SamElasticityGetSymmetric(w->elasticity, &p.symmetric));
+  for (int k = 0; k < 4; k++) PetscCall(SamGridCreateVec(w->grid, 1, created[k]));
+  if (w->has_pressure) PetscCall(VecCopy(w->s->pressure, p.argument));
   PetscCall(SamSolveFixedPoint(w, &iteration, &p, p.argument, &end));
   PetscCall(SamSolverSetTolerances(solver, p.rtol, PETSC_DEFAULT));
   if (end == SAM_PASS_GOES_ON) PetscCall(Fail(w, p.error));

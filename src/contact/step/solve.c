@@ -19,47 +19,55 @@
 #define TIGHT   1e-8
 #define SETTLES 60
 
-static PetscErrorCode Begin(const SamStepTask *task, SamStep *step, SamSolve *w)
+static PetscErrorCode Begin(SamContact c, SamStep *step, SamSolve *w)
 {
   PetscFunctionBegin;
-  *w                  = (SamSolve){.task = task, .s = task->s, .step = step, .kept = task->start.kept};
-  w->has_pressure     = task->start.pressure;
-  w->has_shear        = task->start.shear;
-  w->counts           = SamStateNumbers(task->state, task->counts, SAM_TRIED);
+  *w                  = (SamSolve){.contact    = c,
+                                   .grid       = c->grid,
+                                   .elasticity = c->elasticity,
+                                   .solver     = c->normal,
+                                   .before     = c->tried.before,
+                                   .s          = &c->generation[SAM_TRIED],
+                                   .step       = step,
+                                   .kept       = c->tried.start.kept,
+                                   .monitor    = c->set.coupling_monitor};
+  w->has_pressure     = w->contact->tried.start.pressure;
+  w->has_shear        = w->contact->tried.start.shear;
+  w->counts           = SamStateNumbers(w->contact->state, w->contact->counts, SAM_TRIED);
   w->normal           = SamControlGetBalance(&w->s->control, SAM_BALANCE_NORMAL);
   w->tangential       = SamControlGetBalance(&w->s->control, SAM_BALANCE_TANGENTIAL);
-  w->tangential.ahead = SamElasticitySpinAhead(task->elasticity);
+  w->tangential.ahead = SamElasticitySpinAhead(w->elasticity);
   for (PetscInt k = 0; k < 3; k++) {
     const PetscInt n = SamComponentsOf[SAM_BALANCE_TANGENTIAL][k];
 
-    if (w->s->control.creep[n] && task->motion->continues)
-      w->tangential.rigid[k] =
-        (w->task->before ? w->task->before->rigid[n] : 0) + w->s->rolled * w->s->control.value[n];
+    if (w->s->control.creep[n] && w->contact->motion->continues)
+      w->tangential.rigid[k] = (w->before ? w->before->rigid[n] : 0) + w->s->rolled * w->s->control.value[n];
   }
-  PetscCall(PetscArraycpy(w->rigid, task->start.rigid, 3));
-  PetscCall(SamSolutionCreateSeparation(task->problem, task->state, SAM_COMMITTED, &w->separation));
-  if (task->coupled) PetscCall(SamGridCreateVec(task->grid, 2, &w->shear_product.field));
-  if (task->coupled || w->s->tension || SamProblemDisplaces(task->problem))
-    PetscCall(SamGridCreateVec(task->grid, 1, &w->h));
-  if (task->coupled || SamProblemDisplaces(task->problem)) PetscCall(SamGridCreateVec(task->grid, 2, &w->pushed));
-  if (w->s->tension && !task->same_pressure) {
-    PetscCall(SamGridCreateVec(task->grid, 1, &w->pulled));
-    PetscCall(SamElasticityApplyNormal(task->elasticity, w->s->tension, w->pulled));
+  PetscCall(PetscArraycpy(w->rigid, w->contact->tried.start.rigid, 3));
+  PetscCall(SamSolutionCreateSeparation(w->contact->problem, w->contact->state, SAM_COMMITTED, &w->separation));
+  if (SamContactIsCoupled(w->contact)) PetscCall(SamGridCreateVec(w->grid, 2, &w->shear_product.field));
+  if (SamContactIsCoupled(w->contact) || w->s->tension || SamProblemDisplaces(w->contact->problem))
+    PetscCall(SamGridCreateVec(w->grid, 1, &w->h));
+  if (SamContactIsCoupled(w->contact) || SamProblemDisplaces(w->contact->problem))
+    PetscCall(SamGridCreateVec(w->grid, 2, &w->pushed));
+  if (w->s->tension && !w->contact->tried.same_pressure) {
+    PetscCall(SamGridCreateVec(w->grid, 1, &w->pulled));
+    PetscCall(SamElasticityApplyNormal(w->elasticity, w->s->tension, w->pulled));
     PetscCall(SamSolveBearTension(w));
   }
-  if (!task->coupled) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SamGridCreateVec(task->grid, 1, &w->lift));
-  if (w->s->rule == SAM_RULE_TOUCHING) PetscCall(SamSolveBeginTouching(w));
-  PetscCall(SamGridCreateVec(task->grid, 1, &w->pressure_product.field));
-  PetscCall(SamGridCreateVec(task->grid, 1, &w->previous_pressure));
-  PetscCall(SamGridCreateVec(task->grid, 2, &w->previous_shear));
+  if (!SamContactIsCoupled(w->contact)) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamGridCreateVec(w->grid, 1, &w->lift));
+  if (SamRuleTouches(w->s->rule)) PetscCall(SamSolveBeginTouching(w));
+  PetscCall(SamGridCreateVec(w->grid, 1, &w->pressure_product.field));
+  PetscCall(SamGridCreateVec(w->grid, 1, &w->previous_pressure));
+  PetscCall(SamGridCreateVec(w->grid, 2, &w->previous_shear));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 static PetscErrorCode End(SamSolve *w)
 {
   PetscFunctionBegin;
-  PetscCall(SamSolutionDestroySeparation(w->task->problem, &w->separation));
+  PetscCall(SamSolutionDestroySeparation(w->contact->problem, &w->separation));
   PetscCall(VecDestroy(&w->slip));
   PetscCall(VecDestroy(&w->pulled));
   PetscCall(VecDestroy(&w->pushed));
@@ -76,7 +84,7 @@ static PetscErrorCode End(SamSolve *w)
 /* Sets the field `aside` by the shear so far, unless it is nearly that field; `same`: it is. */
 static PetscErrorCode CompareAside(SamSolve *w, PetscBool *same)
 {
-  const SamGrid grid = w->task->grid;
+  const SamGrid grid = w->grid;
   PetscReal     size, change;
   Vec           used;
 
@@ -98,7 +106,7 @@ static PetscErrorCode CompareAside(SamSolve *w, PetscBool *same)
   A step that repeats one of the cycle before begins with the field `aside` of that step; if this is nearly that of the
   solution, once is enough.
 */
-static PetscErrorCode SolveShear(SamSolve *w, PetscBool has_shear)
+static PetscErrorCode SolveShear(SamSolve *w)
 {
   const PetscBool     twice  = SamSolveIsTwice(w);
   const SamCachedStep kept   = w->kept;
@@ -115,20 +123,20 @@ static PetscErrorCode SolveShear(SamSolve *w, PetscBool has_shear)
     PetscCall(SamSolveZeroShear(w));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
-  PetscCall(SamSolverGetTolerances(SamTangentialAsSolver(w->task->tangential), &rtol, NULL));
+  PetscCall(SamSolverGetTolerances(SamTangentialAsSolver(w->contact->tangential), &rtol, NULL));
   PetscCall(SamSolveSetAside(w, again ? SAM_ASIDE_KEPT : SAM_ASIDE_PREDICTED));
   if (twice) {
     const PetscReal first = steady ? rtol : SAM_ROUGH * rtol;
 
-    if (!w->shear_product.field) PetscCall(SamGridCreateVec(w->task->grid, 2, &w->shear_product.field));
-    SamSolverSetEffort(SamTangentialAsSolver(w->task->tangential), first, SAM_EFFORT_FULL);
-    PetscCall(SamSolveShear(w, has_shear, first, SAM_EFFORT_FULL));
-    reason = SamSolverGetReason(SamTangentialAsSolver(w->task->tangential));
+    if (!w->shear_product.field) PetscCall(SamGridCreateVec(w->grid, 2, &w->shear_product.field));
+    SamSolverSetEffort(SamTangentialAsSolver(w->contact->tangential), first, SAM_EFFORT_FULL);
+    PetscCall(SamSolveShear(w, first, SAM_EFFORT_FULL));
+    reason = SamSolverGetReason(SamTangentialAsSolver(w->contact->tangential));
     if (reason > 0 && steady) PetscCall(CompareAside(w, &same));
     if (reason > 0 && !steady) PetscCall(SamSolveSetAside(w, SAM_ASIDE_SOLVED));
     if (!again) w->kept = kept; /* it is nearer than the solution so far if the cycle repeats itself */
   }
-  if (reason > 0 && !same) PetscCall(SamSolveShear(w, has_shear || twice, rtol, SAM_EFFORT_FULL));
+  if (reason > 0 && !same) PetscCall(SamSolveShear(w, rtol, SAM_EFFORT_FULL));
   PetscCall(SamSolveJudge(w, SAM_BALANCE_TANGENTIAL));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -139,18 +147,18 @@ static PetscErrorCode SolveProblems(SamSolve *w)
   PetscBool friction;
 
   PetscFunctionBegin;
-  PetscCall(SamProblemHasFriction(w->task->problem, &friction));
-  if (w->task->coupled && friction) {
+  PetscCall(SamProblemHasFriction(w->contact->problem, &friction));
+  if (SamContactIsCoupled(w->contact) && friction) {
     PetscCall(SamSolveCoupled(w));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
-  if (w->task->coupled) {
+  if (SamContactIsCoupled(w->contact)) {
     PetscCall(VecSet(w->h, 0));
     w->kept = NULL;
   }
-  PetscCall(SamSolveNormal(w, w->has_pressure, w->has_shear));
-  if (!w->task->same_pressure && !w->known_pressure) PetscCall(SamSolveJudge(w, SAM_BALANCE_NORMAL));
-  PetscCall(SolveShear(w, w->has_shear));
+  PetscCall(SamSolveBegun(w));
+  if (!w->contact->tried.known_pressure) PetscCall(SamSolveJudge(w, SAM_BALANCE_NORMAL));
+  PetscCall(SolveShear(w));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -181,7 +189,7 @@ static PetscErrorCode SettlePass(void *context, PetscInt pass, Vec result, SamPa
   PetscFunctionBegin;
   PetscCall(VecCopy(p->argument, w->s->aside));
   w->holds = PETSC_TRUE;
-  if (pass > 1) PetscCall(w->task->coupled ? SolveAgain(w) : SolveShear(w, PETSC_TRUE));
+  if (pass > 1) PetscCall(SamContactIsCoupled(w->contact) ? SolveAgain(w) : SolveShear(w));
   w->holds = PETSC_FALSE;
   *end     = SAM_PASS_FAILED;
   if (w->step->status != SAM_STATUS_CONVERGED) PetscFunctionReturn(PETSC_SUCCESS);
@@ -203,11 +211,11 @@ static PetscErrorCode Settle(SamSolve *w)
   PetscReal                  normal;
 
   PetscFunctionBegin;
-  PetscCall(SamSolverGetTolerances(SamTangentialAsSolver(w->task->tangential), &p.rtol, NULL));
-  if ((p.rtol > TIGHT && !w->task->settles) || w->touching || !w->s->aside || !SamSolveSetsAside(w))
+  PetscCall(SamSolverGetTolerances(SamTangentialAsSolver(w->contact->tangential), &p.rtol, NULL));
+  if ((p.rtol > TIGHT && !w->contact->settles) || w->touching || !w->s->aside || !SamSolveSetsAside(w))
     PetscFunctionReturn(PETSC_SUCCESS);
   if (w->step->status != SAM_STATUS_CONVERGED) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SamElasticityGetSelfInfluence(w->task->elasticity, &normal, &p.unit));
+  PetscCall(SamElasticityGetSelfInfluence(w->elasticity, &normal, &p.unit));
   PetscCall(VecDuplicate(w->s->aside, &p.argument));
   PetscCall(VecCopy(w->s->aside, p.argument));
   PetscCall(SamSolveFixedPoint(w, &iteration, &p, p.argument, &end));
@@ -218,16 +226,15 @@ static PetscErrorCode Settle(SamSolve *w)
 /* Computes the slip, or the frictional power, of the solution, for a law that uses it. */
 static PetscErrorCode FindSlip(SamSolve *w, SamLaw law, SamLawContact *contact)
 {
-  const SamStepTask *task = w->task;
 
   PetscFunctionBegin;
   if (!contact->solved || !(law->uses[SAM_USE_PATH] || law->uses[SAM_USE_POWER])) PetscFunctionReturn(PETSC_SUCCESS);
-  if (!contact->slip) PetscCall(SamGridCreateVec(task->grid, 1, &contact->slip));
+  if (!contact->slip) PetscCall(SamGridCreateVec(w->grid, 1, &contact->slip));
   PetscCall(SamSolveDisplace(w));
   if (law->uses[SAM_USE_POWER])
-    PetscCall(SamSolutionComputeRolling(task->problem, w->s, PETSC_FALSE, contact->slip));
+    PetscCall(SamSolutionComputeRolling(w->contact->problem, w->s, PETSC_FALSE, contact->slip));
   else
-    PetscCall(SamSolutionComputeFriction(task->problem, task->before, w->s, contact->slip, NULL, NULL));
+    PetscCall(SamSolutionComputeFriction(w->contact->problem, w->before, w->s, contact->slip, NULL, NULL));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -283,7 +290,7 @@ static PetscErrorCode Follow(SamSolve *w, SamLaw law, SamLawContact *contact)
 */
 static PetscErrorCode FollowTractions(SamSolve *w)
 {
-  SamLawContact contact = {.state      = w->task->state,
+  SamLawContact contact = {.state      = w->contact->state,
                            .normal     = &w->normal,
                            .tangential = &w->tangential,
                            .pressure   = w->s->pressure,
@@ -293,7 +300,7 @@ static PetscErrorCode FollowTractions(SamSolve *w)
   PetscInt      count;
 
   PetscFunctionBegin;
-  PetscCall(SamProblemGetLaws(w->task->problem, &count, &laws));
+  PetscCall(SamProblemGetLaws(w->contact->problem, &count, &laws));
   for (PetscInt k = 0; k < count && w->step->status != SAM_STATUS_NO_EQUILIBRIUM; k++)
     if (laws[k]->ops.follow) PetscCall(Follow(w, laws[k], &contact));
   PetscCall(VecDestroy(&contact.slip));
@@ -301,19 +308,18 @@ static PetscErrorCode FollowTractions(SamSolve *w)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamStepSolve(const SamStepTask *task, SamStep *step, PetscBool *known_pressure)
+PetscErrorCode SamStepSolve(SamContact c, SamStep *step)
 {
   SamSolve w;
 
   PetscFunctionBegin;
-  PetscCall(Begin(task, step, &w));
+  PetscCall(Begin(c, step, &w));
   PetscCall(SolveProblems(&w));
   PetscCall(Settle(&w));
   PetscCall(FollowTractions(&w));
   if (w.touching && w.s->aside) PetscCall(SamSolveEndTouching(&w));
-  *known_pressure = task->same_pressure || w.known_pressure ? PETSC_TRUE : PETSC_FALSE;
-  if (task->motion->streams) PetscCall(SamSolveRolling(&w));
-  if (task->traits.skewed && w.step->status == SAM_STATUS_CONVERGED && w.s->load[SAM_COMPONENT_N] > 0)
+  if (c->motion->streams) PetscCall(SamSolveRolling(&w));
+  if (c->traits.skewed && w.step->status == SAM_STATUS_CONVERGED && w.s->load[SAM_COMPONENT_N] > 0)
     PetscCall(SamSolveResistance(&w));
   PetscCall(End(&w));
   PetscFunctionReturn(PETSC_SUCCESS);

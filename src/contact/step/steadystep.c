@@ -74,8 +74,9 @@ static PetscErrorCode CreateCoarse(SamSolve *w, Coarse *k)
   PetscFunctionBegin;
   k->grid = SamElasticityGetGrid(k->elasticity);
   for (PetscInt n = 0; n < FIELDS; n++) PetscCall(SamGridCreateVec(k->grid, n < SHEAR ? 1 : 2, &k->field[n]));
-  if (w->task->coupled) PetscCall(VecWAXPY(w->h, 1, w->lift, w->separation));
-  PetscCall(SamTransferRestrict(k->transfer, w->task->coupled ? w->h : w->separation, k->field[SEPARATION]));
+  if (SamContactIsCoupled(w->contact)) PetscCall(VecWAXPY(w->h, 1, w->lift, w->separation));
+  PetscCall(
+    SamTransferRestrict(k->transfer, SamContactIsCoupled(w->contact) ? w->h : w->separation, k->field[SEPARATION]));
   PetscCall(SamTransferRestrict(k->transfer, w->s->pressure, k->field[MEAN_PRESSURE]));
   PetscCall(SamTransferRestrict(k->transfer, w->s->bound, k->field[MEAN_BOUND]));
   PetscCall(SamTransferRestrict(k->transfer, w->s->shear, k->field[SHEAR]));
@@ -108,10 +109,10 @@ PetscErrorCode SamSolveCreateCoarseNormal(SamSolve *w, SamElasticity bodies, Sam
   PetscReal     limit;
 
   PetscFunctionBegin;
-  PetscCall(SamProblemGetPressureLimit(w->task->problem, &limit));
+  PetscCall(SamProblemGetPressureLimit(w->contact->problem, &limit));
   PetscCall(SamElasticityGetSymmetric(bodies, &symmetric));
   PetscCall(SamNormalCreate(symmetric, normal));
-  PetscCall(TakeTolerance(SamNormalAsSolver(w->task->normal), SamNormalAsSolver(*normal)));
+  PetscCall(TakeTolerance(SamNormalAsSolver(w->solver), SamNormalAsSolver(*normal)));
   PetscCall(SamNormalSetPressureLimit(*normal, limit));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -148,11 +149,12 @@ static PetscErrorCode SolveCoarse(SamSolve *w, Coarse *k, SamSolverReason *reaso
   PetscCall(SamNormalDestroy(&normal));
   if (*reason < 0) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(ComputeBound(k));
-  if (w->task->coupled) PetscCall(SamElasticityApplyNormalToTangential(k->elasticity, f[PRESSURE], f[OFFSET]));
+  if (SamContactIsCoupled(w->contact))
+    PetscCall(SamElasticityApplyNormalToTangential(k->elasticity, f[PRESSURE], f[OFFSET]));
   PetscCall(SamTangentialCreate(k->elasticity, &tangential));
-  PetscCall(TakeTolerance(SamTangentialAsSolver(w->task->tangential), SamTangentialAsSolver(tangential)));
-  PetscCall(SamTangentialSolve(tangential, f[BOUND], w->task->coupled ? f[OFFSET] : NULL, &k->tangential, PETSC_TRUE,
-                               f[SHEAR]));
+  PetscCall(TakeTolerance(SamTangentialAsSolver(w->contact->tangential), SamTangentialAsSolver(tangential)));
+  PetscCall(SamTangentialSolve(tangential, f[BOUND], SamContactIsCoupled(w->contact) ? f[OFFSET] : NULL, &k->tangential,
+                               PETSC_TRUE, f[SHEAR]));
   *reason = SamSolverGetReason(SamTangentialAsSolver(tangential));
   PetscCall(SamTangentialDestroy(&tangential));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -160,7 +162,7 @@ static PetscErrorCode SolveCoarse(SamSolve *w, Coarse *k, SamSolverReason *reaso
 
 PetscErrorCode SamSolveRolling(SamSolve *w)
 {
-  double *const   numbers = SamStateNumbers(w->task->state, w->task->rolling, SAM_TRIED);
+  double *const   numbers = SamStateNumbers(w->contact->state, w->contact->rolling, SAM_TRIED);
   Coarse          k       = {.elasticity = NULL};
   SamSolverReason reason  = SAM_SOLVER_ITERATING;
 
@@ -173,14 +175,15 @@ PetscErrorCode SamSolveRolling(SamSolve *w)
     numbers[LOADS + n] = numbers[CREEPS + n] = NAN;
   }
   if (w->step->status != SAM_STATUS_CONVERGED || w->s->load[SAM_COMPONENT_N] <= 0) PetscFunctionReturn(PETSC_SUCCESS);
-  if (w->task->traits.plane || w->task->traits.skewed || !w->task->set->extrapolate) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SamElasticityGetCoarse(w->task->elasticity, &k.elasticity, &k.transfer));
+  if (w->contact->traits.plane || w->contact->traits.skewed || !w->contact->set.extrapolate)
+    PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamElasticityGetCoarse(w->elasticity, &k.elasticity, &k.transfer));
   if (!k.elasticity) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(CreateCoarse(w, &k));
   PetscCall(SolveCoarse(w, &k, &reason));
   for (PetscInt n = 0; reason > 0 && n < 3; n++) {
     const PetscInt  t     = SamComponentsOf[SAM_BALANCE_TANGENTIAL][n];
-    const double    ratio = (double)(w->task->grid->dx / (k.grid->dx - w->task->grid->dx));
+    const double    ratio = (double)(w->grid->dx / (k.grid->dx - w->grid->dx));
     const PetscBool found = w->tangential.force[n];
     const double    fine  = (double)(found ? w->s->rigid : w->s->load)[t],
                  coarse   = (double)(found ? k.tangential.rigid : k.tangential.load)[n];

@@ -2,19 +2,23 @@
 #ifndef PETSAM_STEPIMPL_H
 #define PETSAM_STEPIMPL_H
 
-#include "step.h"
+#include "../contactimpl.h"
 #include <petsam/private/normalimpl.h>
 #include <petsam/private/tangentialimpl.h>
 
 /* A step under way. */
 typedef struct {
-  const SamStepTask *task;
-  SamSolution       *s; /* the tried solution */
+  SamContact         contact;    /* whose step it is */
+  SamGrid            grid;       /* on which it is solved: that of the contact, or a coarser one, like the next two */
+  SamElasticity      elasticity; /* of the bodies */
+  SamNormal          solver;     /* of the normal problem */
+  const SamSolution *before;     /* the solution before the step; NULL: none, or its slip is not continued */
+  SamSolution       *s;          /* the tried solution */
   SamStep           *step;
   SamCachedStep      kept;                    /* the same step one cycle before; NULL: none, or already used */
-  PetscBool          has_pressure, has_shear; /* the tried solution holds a guess */
-  PetscBool          known_pressure;          /* the pressure is that of the kept step */
+  PetscBool          has_pressure, has_shear; /* the tried solution holds a pressure; a shear to start from */
   PetscBool          holds;                   /* the field `aside` stays as it is */
+  PetscBool          monitor;                 /* passes are printed */
   SamBalance         normal, tangential;      /* as prescribed; contact also bears the loads of the tension */
   double             rigid[3];                /* guess of the tangential rigid displacements */
   double            *counts;                  /* iteration counts of the solvers, in the state */
@@ -37,14 +41,15 @@ typedef struct {
 /* ---- the two problems (problems.c) ---- */
 
 /*
-  SamSolveNormal - solves the normal problem of the step. `has_pressure`: the tried solution holds a guess of the
-  pressure. `has_shear`: it also holds a guess of the shear, which is then scaled with the pressure. Collective.
-  SamSolveTangential - solves the tangential problem under the bound of the tried solution; `has_shear` likewise.
-  Collective.
+  SamSolveNormal - solves the normal problem of the step, from the pressure of the tried solution if it holds one.
+  SamSolveBegun - solves it, and scales the shear that the tried solution holds with its pressure. Collective.
+  SamSolveTangential - solves the tangential problem under the bound of the tried solution, from its shear if it holds
+  one to start from. Collective.
   SamSolveZeroShear - sets the shear to zero, because the pressure is wrong. Collective.
 */
-PETSC_INTERN PetscErrorCode SamSolveNormal(SamSolve *solve, PetscBool has_pressure, PetscBool has_shear);
-PETSC_INTERN PetscErrorCode SamSolveTangential(SamSolve *solve, PetscBool has_shear);
+PETSC_INTERN PetscErrorCode SamSolveNormal(SamSolve *solve);
+PETSC_INTERN PetscErrorCode SamSolveBegun(SamSolve *solve);
+PETSC_INTERN PetscErrorCode SamSolveTangential(SamSolve *solve);
 PETSC_INTERN PetscErrorCode SamSolveZeroShear(SamSolve *solve);
 /*
   SamSolveGetSeparation - computes the separation (m) for the normal problem: the sum of the bodies' separation, of the
@@ -68,10 +73,10 @@ static inline const char   *SamSolveTiltCure(const SamSolve *solve)
   return tilts ? "rot_x = rot_y = 0, as bodies that may tilt roll away under a pull, or " : "";
 }
 PETSC_INTERN PetscErrorCode SamSolveCount(SamSolver solver, double counts[3]);
-PETSC_INTERN PetscErrorCode SamSolvePressureOnce(SamSolve *solve, Vec h, PetscBool has_pressure);
-PETSC_INTERN PetscErrorCode SamSolveSkewed(SamSolve *solve, Vec h, PetscBool has_pressure);
-PETSC_INTERN PetscErrorCode SamSolvePressure(SamSolve *solve, Vec h, PetscBool has_pressure);
-PETSC_INTERN PetscErrorCode SamSolveAttraction(SamSolve *solve, Vec h, PetscBool has_pressure);
+PETSC_INTERN PetscErrorCode SamSolvePressureOnce(SamSolve *solve, Vec h);
+PETSC_INTERN PetscErrorCode SamSolveSkewed(SamSolve *solve, Vec h);
+PETSC_INTERN PetscErrorCode SamSolvePressure(SamSolve *solve, Vec h);
+PETSC_INTERN PetscErrorCode SamSolveAttraction(SamSolve *solve, Vec h);
 PETSC_INTERN PetscErrorCode SamSolveBearTension(SamSolve *solve);
 PETSC_INTERN PetscBool      SamSolveIsApart(const SamSolve *solve);
 PETSC_INTERN PetscErrorCode SamSolveFailApart(SamSolve *solve);
@@ -131,7 +136,7 @@ PETSC_INTERN PetscErrorCode SamSolveGetChange(SamSolve *solve, Vec argument, Vec
   from the step before, as it was in the kept step, or by the shear of the tried solution, whose tolerance may be
   SAM_ROUGH times that of the shear. Collective.
   SamSolveSetsAside - true if it sets anything in such a step. SamSolveTurns - true if slip follows the shear at mid
-  step, from the step before. SamSolveFindsTouching - true if the motion until cells
+  step. SamSolveFindsTouching - true if the motion until cells
   touch is to be found. Not collective.
   SamSolveBeginTouching - creates the field `touching` of a step in which it is to be found. Collective.
   SamSolveFindTouching - computes the motion (m, two components) of the surfaces of dissimilar bodies in the step until
@@ -159,7 +164,7 @@ PETSC_INTERN PetscErrorCode SamSolveSetAside(SamSolve *solve, SamAsideFrom from)
 PETSC_INTERN PetscBool      SamSolveSetsAside(SamSolve *solve);
 static inline PetscBool     SamSolveTurns(SamSolve *solve)
 {
-  return SamRuleTurns(solve->s->rule) && solve->task->before ? PETSC_TRUE : PETSC_FALSE;
+  return SamRuleTurns(solve->s->rule);
 }
 PETSC_INTERN PetscErrorCode SamSolveBeginTouching(SamSolve *solve);
 PETSC_INTERN PetscErrorCode SamSolveFindTouching(SamSolve *solve, Vec motion);
@@ -177,7 +182,7 @@ static inline void SamSolveStartFromLast(SamSolve *solve)
 }
 PETSC_INTERN PetscBool      SamSolveIsTwice(SamSolve *solve);
 PETSC_INTERN PetscErrorCode SamSolveBound(SamSolve *solve, Vec bound);
-PETSC_INTERN PetscErrorCode SamSolveShear(SamSolve *solve, PetscBool has_shear, PetscReal rtol, SamEffort effort);
+PETSC_INTERN PetscErrorCode SamSolveShear(SamSolve *solve, PetscReal rtol, SamEffort effort);
 PETSC_INTERN PetscErrorCode SamSolveCoupled(SamSolve *solve);
 PETSC_INTERN PetscErrorCode SamSolveRolling(SamSolve *solve);
 PETSC_INTERN PetscErrorCode SamSolveResistance(SamSolve *solve);

@@ -109,16 +109,16 @@ static PetscErrorCode CreateErrors(SamSolve *s, Vec *gap, Vec *slip)
   SamBalance normal = s->normal, tangential = s->tangential;
 
   PetscFunctionBegin;
-  PetscCall(SamGridCreateVec(s->task->grid, 1, gap));
+  PetscCall(SamGridCreateVec(s->grid, 1, gap));
   PetscCall(VecWAXPY(*gap, 1, s->h, s->pressure_product.field));
   for (PetscInt k = 0; k < 3; k++) {
     normal.rigid[k]     = s->s->rigid[SamComponentsOf[SAM_BALANCE_NORMAL][k]];
     tangential.rigid[k] = s->s->rigid[SamComponentsOf[SAM_BALANCE_TANGENTIAL][k]];
   }
-  PetscCall(SubtractRigid(s->task->grid, &normal, *gap));
+  PetscCall(SubtractRigid(s->grid, &normal, *gap));
   PetscCall(SamSolveCreateOffset(s, slip));
   PetscCall(VecAXPY(*slip, 1, s->shear_product.field));
-  PetscCall(SubtractRigid(s->task->grid, &tangential, *slip));
+  PetscCall(SubtractRigid(s->grid, &tangential, *slip));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -141,15 +141,15 @@ static PetscErrorCode Freeze(Together *t, SamElasticity part, Vec slip)
 {
   SamSolve *const s                         = t->s;
   Vec             fields[SAM_FROZEN_FIELDS] = {NULL}, whole;
-  SamBoundAt      at                        = {s->task->state, &s->s->control, s->s->pressure, NULL, s->s->rolled};
+  SamBoundAt      at                        = {s->contact->state, &s->s->control, s->s->pressure, NULL, s->s->rolled};
 
   PetscFunctionBegin;
-  PetscCall(SamGridCreateVec(s->task->grid, 1, &whole));
-  PetscCall(ComputeLengths(s->task->grid, slip, whole));
+  PetscCall(SamGridCreateVec(s->grid, 1, &whole));
+  PetscCall(ComputeLengths(s->grid, slip, whole));
   PetscCall(Take(t, 1, whole, &fields[SAM_FROZEN_PATH]));
   PetscCall(VecSet(whole, 0));
   PetscCall(Take(t, 1, whole, &fields[SAM_FROZEN_OVERLAP]));
-  PetscCall(SamProblemComputeBound(s->task->problem, &at, &(SamBound){.by_pressure = whole}));
+  PetscCall(SamProblemComputeBound(s->contact->problem, &at, &(SamBound){.by_pressure = whole}));
   PetscCall(Take(t, 1, whole, &fields[SAM_FROZEN_SLOPE]));
   PetscCall(Take(t, 1, s->s->pressure, &fields[SAM_FROZEN_PRESSURE]));
   PetscCall(Take(t, 1, s->s->bound, &fields[SAM_FROZEN_BOUND]));
@@ -191,13 +191,13 @@ static PetscErrorCode CutOff(SamSolve *s)
 
   PetscFunctionBegin;
   PetscCall(VecGetArray(s->s->pressure, &p));
-  for (PetscInt k = 0; k < s->task->grid->cells; k++)
+  for (PetscInt k = 0; k < s->grid->cells; k++)
     if (p[k] < 0) {
       negative = 1;
       p[k]     = 0;
     }
   PetscCall(VecRestoreArray(s->s->pressure, &p));
-  PetscCall(SamSum(s->task->grid->comm, 1, &negative));
+  PetscCall(SamSum(s->grid->comm, 1, &negative));
   if (negative > 0) s->pressure_product.n[0] = 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -234,20 +234,20 @@ static PetscErrorCode Change(Together *t)
 
 PetscErrorCode SamSolveCanJoin(SamSolve *s, PetscBool *can)
 {
-  const SamMotion motion = s->task->motion;
+  const SamMotion motion = s->contact->motion;
   PetscReal       limit;
 
   PetscFunctionBegin;
-  PetscCall(SamProblemGetPressureLimit(s->task->problem, &limit));
+  PetscCall(SamProblemGetPressureLimit(s->contact->problem, &limit));
   *can = isinf(limit) && motion->continues && s->s->rolled == 0 && !s->touching ? PETSC_TRUE : PETSC_FALSE;
-  if (SamProblemFollowsSlip(s->task->problem)) *can = PETSC_FALSE;
+  if (SamProblemFollowsSlip(s->contact->problem)) *can = PETSC_FALSE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamSolveTogether(SamSolve *s, PetscReal rtol, PetscBool *made)
 {
-  const SamElasticity e = s->task->elasticity;
-  Together            t = {.s = s, .grid = s->task->grid, .n = {s->task->grid->nx, s->task->grid->ny}};
+  const SamElasticity e = s->elasticity;
+  Together            t = {.s = s, .grid = s->grid, .n = {s->grid->nx, s->grid->ny}};
   SamElasticity       part;
   Vec                 gap, slip;
   PetscReal           error;
@@ -257,8 +257,8 @@ PetscErrorCode SamSolveTogether(SamSolve *s, PetscReal rtol, PetscBool *made)
   PetscCall(SamGridGetSupport(t.grid, s->s->pressure, PETSC_FALSE, t.first, t.n));
   PetscCall(SamElasticityChoosePart(e, t.first, t.n, PETSC_TRUE, &t.window, &part));
   t.first[0] = t.first[1] = 0;
-  t.n[0]                  = s->task->grid->nx;
-  t.n[1]                  = s->task->grid->ny;
+  t.n[0]                  = s->grid->nx;
+  t.n[1]                  = s->grid->ny;
   if (t.window) t.grid = SamWindowGetGrid(t.window);
   if (t.window) PetscCall(SamWindowGetPlace(t.window, t.first, t.n));
   if (!Knows(&t, &s->pressure_product) || !Knows(&t, &s->shear_product)) PetscFunctionReturn(PETSC_SUCCESS);

@@ -104,14 +104,14 @@ static PetscErrorCode Cover(SamSolve *w)
   static PetscErrorCode (*const apply[])(SamElasticity, Vec, Vec) = {SamElasticityApplyNormal,
                                                                      SamElasticityApplyTangential};
 
-  const SamGrid grid       = w->task->grid;
+  const SamGrid grid       = w->grid;
   const Vec     traction[] = {w->s->pressure, w->s->shear};
   SamProduct   *product[]  = {&w->pressure_product, &w->shear_product};
   double        most[2][2] = {{-INFINITY, -INFINITY}, {-INFINITY, -INFINITY}}; /* minus the first cell, and the last */
   SamHalo       p;
 
   PetscFunctionBegin;
-  PetscCall(SamHaloBegin(grid, w->s->pressure, 1, 2, w->task->traits.periodic, &p));
+  PetscCall(SamHaloBegin(grid, w->s->pressure, 1, 2, w->contact->traits.periodic, &p));
   for (PetscInt j = grid->row_start; j < grid->row_start + grid->rows; j++)
     for (PetscInt i = 0; i < grid->nx; i++) {
       const PetscInt at[2] = {i, j};
@@ -131,7 +131,7 @@ static PetscErrorCode Cover(SamSolve *w)
       if (-most[0][k] < (double)product[t]->first[k] || most[1][k] >= (double)(product[t]->first[k] + product[t]->n[k]))
         outside = PETSC_TRUE;
     if (!outside) continue;
-    PetscCall((*apply[t])(w->task->elasticity, traction[t], product[t]->field));
+    PetscCall((*apply[t])(w->elasticity, traction[t], product[t]->field));
     *product[t] = (SamProduct){.field = product[t]->field, .n = {grid->nx, grid->ny}};
   }
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -274,13 +274,13 @@ static PetscErrorCode Move(Step *step, Vec motion)
 /* Computes the motion of all cells in the step. */
 static PetscErrorCode FindMoved(SamSolve *w, Vec moved)
 {
-  const SamGrid grid = w->task->grid;
+  const SamGrid grid = w->grid;
   SamIncrement  increment;
   const double *aside;
   double       *to;
 
   PetscFunctionBegin;
-  PetscCall(SamIncrementCreate(w->task->problem, w->task->before, w->s, &increment));
+  PetscCall(SamIncrementCreate(w->contact->problem, w->before, w->s, &increment));
   aside           = increment.aside;
   increment.aside = NULL; /* for the whole motion of cells that touch, too */
   PetscCall(VecGetArrayWrite(moved, &to));
@@ -297,13 +297,13 @@ static PetscErrorCode FindMoved(SamSolve *w, Vec moved)
 
 PetscErrorCode SamSolveBeginTouching(SamSolve *w)
 {
-  const SamSolution *before  = w->task->before;
-  const PetscInt     cells   = w->task->grid->cells;
+  const SamSolution *before  = w->before;
+  const PetscInt     cells   = w->grid->cells;
   double             sums[2] = {0}; /* cells in contact before the step, and those of them that stick */
   const double      *p, *q, *b;
 
   PetscFunctionBegin;
-  PetscCall(SamGridCreateVec(w->task->grid, 2, &w->touching));
+  PetscCall(SamGridCreateVec(w->grid, 2, &w->touching));
   w->stuck = 1;
   if (!before) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(VecGetArrayRead(before->pressure, &p));
@@ -318,7 +318,7 @@ PetscErrorCode SamSolveBeginTouching(SamSolve *w)
   PetscCall(VecRestoreArrayRead(before->bound, &b));
   PetscCall(VecRestoreArrayRead(before->shear, &q));
   PetscCall(VecRestoreArrayRead(before->pressure, &p));
-  PetscCall(SamSum(w->task->grid->comm, 2, sums));
+  PetscCall(SamSum(w->grid->comm, 2, sums));
   if (sums[0] > 0) w->stuck = sums[1] / sums[0];
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -326,7 +326,7 @@ PetscErrorCode SamSolveBeginTouching(SamSolve *w)
 /* Returns the power of the gap, in proportion to which cells move until they touch (top of this file). */
 static double PowerOf(const SamSolve *w)
 {
-  const double before = w->task->before ? (double)SamSolutionGetNormal(w->task->before) : 0;
+  const double before = w->before ? (double)SamSolutionGetNormal(w->before) : 0;
   const double share  = before > 0 ? PetscMin(before / (double)SamSolutionGetNormal(w->s), 1) : 0;
 
   return 1 - (SLIPS - (SLIPS - STICKS) * w->stuck * w->stuck) * sqrt(share);
@@ -334,12 +334,12 @@ static double PowerOf(const SamSolve *w)
 
 PetscErrorCode SamSolveFindTouching(SamSolve *w, Vec motion)
 {
-  Step step = {.grid      = w->task->grid,
-               .modulus   = SamPairModulus(SamElasticityGetPair(w->task->elasticity)),
+  Step step = {.grid      = w->grid,
+               .modulus   = SamPairModulus(SamElasticityGetPair(w->elasticity)),
                .pressure  = w->s->pressure,
                .power     = PowerOf(w),
                .deviation = &w->deviation,
-               .wraps     = w->task->traits.periodic};
+               .wraps     = w->contact->traits.periodic};
 
   PetscFunctionBegin;
   PetscCall(SamVecZero(motion));
@@ -350,7 +350,7 @@ PetscErrorCode SamSolveFindTouching(SamSolve *w, Vec motion)
   PetscCall(PetscCalloc1(step.grid->cells, &step.beside));
   PetscCall(Cover(w));
   PetscCall(VecWAXPY(step.gap, 1, w->lift, w->pressure_product.field)); /* the pressure is solved with this lift */
-  PetscCall(SamSolutionComputeGap(w->task->problem, w->s, step.gap, w->separation, step.left));
+  PetscCall(SamSolutionComputeGap(w->contact->problem, w->s, step.gap, w->separation, step.left));
   PetscCall(SamSolveFindGaps(w, step.gap));
   PetscCall(SamSolveDisplace(w));
   PetscCall(FindMoved(w, step.moved));
@@ -366,7 +366,7 @@ PetscErrorCode SamSolveFindTouching(SamSolve *w, Vec motion)
 
 PetscErrorCode SamSolveEndTouching(SamSolve *w)
 {
-  const PetscInt cells = w->task->grid->cells;
+  const PetscInt cells = w->grid->cells;
   const double  *p, *m;
   double        *aside;
 

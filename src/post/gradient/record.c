@@ -299,7 +299,7 @@ static PetscErrorCode CheckPlace(SamGradient g, PetscInt place, PetscInt row, co
              "the gradient: the contact has steps that were not recorded: begin before its first step");
   PetscCheck(row >= 0 || g->cycle == 0 || place < g->rows - g->cycle, comm, PETSC_ERR_ORDER,
              "the gradient: a wear simulation has been recorded: further steps begin after a reset");
-  PetscCheck(s->rule < SAM_RULE_TOUCHING, comm, SAM_ERR_USER,
+  PetscCheck(!SamRuleTouches(s->rule), comm, SAM_ERR_USER,
              "the gradient: the contact of dissimilar bodies grows, and slip that begins when cells touch has no "
              "derivative: give -slip_direction end");
   PetscCheck(s->rolled == 0, comm, SAM_ERR_USER, "the gradient of steps that roll is not computed");
@@ -326,7 +326,7 @@ PetscErrorCode SamGradientRecord(SamGradient g, PetscInt row, SamLifePlace where
   CopyControl(g, now, &r);
   PetscCall(RecordEntering(g, now, &r));
   PetscCall(FindSame(g, now, place, &r));
-  r.turns = SamRuleTurns(now->rule) && SamContactBefore(g->contact) ? PETSC_TRUE : PETSC_FALSE;
+  r.turns = SamRuleTurns(now->rule);
   r.row   = row < 0 ? place : row;
   while (g->count > place) PetscCall(SamRecordDestroy(&g->record[--g->count]));
   if (g->count == g->room) {
