@@ -206,6 +206,18 @@ PetscErrorCode SamContactSetState(SamContact c, SamState state, PetscBool gap_is
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode SamContactTakeOver(SamContact c, SamContact from)
+{
+  PetscBool current;
+
+  PetscFunctionBegin;
+  PetscCall(SamContactDeclare(from));
+  PetscCall(SamContactIsGapCurrent(from, &current));
+  PetscCall(SamContactSetState(c, from->state, current));
+  PetscCall(SamStepCacheCopy(from->cache, c->cache));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 SamStepCache SamContactGetCache(SamContact c)
 {
   return c->cache;

@@ -182,9 +182,12 @@ PETSC_INTERN PetscErrorCode SamContactFindEdge(SamContact contact, SamEdgeOf whi
   file. The contact then continues as the other one would, to the last bit, on any number of ranks. `gap_is_current`:
   the state was solved with the present gap of the problem. A tried state is discarded. Collective. Errors: those of
   SamStateCopy().
+  SamContactTakeOver - copies that of another contact of the same problem, with its kept steps. Collective. Errors: the
+  same.
   SamContactGetSteps - returns the number of committed steps. Not collective.
 */
 PETSC_INTERN PetscErrorCode SamContactSetState(SamContact contact, SamState state, PetscBool gap_is_current);
+PETSC_INTERN PetscErrorCode SamContactTakeOver(SamContact contact, SamContact from);
 PETSC_INTERN PetscInt       SamContactGetSteps(SamContact contact);
 /* SamContactBefore - returns the committed solution, from which the tried one continues; NULL in the first step. Not
    collective. */

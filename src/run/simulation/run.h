@@ -3,6 +3,7 @@
 #define PETSAM_RUN_H
 
 #include "../errors/runerrors.h"
+#include "../forecast/forecast.h"
 
 /*
   SamSimulationOpenResults - opens the results. After a restart they are the next part of the existing results; a new
@@ -69,12 +70,5 @@ PETSC_INTERN PetscErrorCode SamSimulationExamine(SamSimulation simulation, Petsc
                                                  const SamStep *step);
 /* SamSimulationCollectParameters - collects the parameters for results and checkpoints. Collective. */
 PETSC_INTERN PetscErrorCode SamSimulationCollectParameters(SamSimulation simulation);
-
-/*
-  SamSimulationEstimateShares - estimates from the largest normal load, by a closed-form solution, the share of this
-  rank's cells that will be in contact, and that of the grid's cells that the operator's part will have, 0: no part.
-  Not collective.
-*/
-PETSC_INTERN PetscErrorCode SamSimulationEstimateShares(SamSimulation simulation, SamSimulationNeeds *needs);
 
 #endif

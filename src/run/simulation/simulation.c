@@ -6,7 +6,6 @@
 #include <petsam/private/runfiles.h>
 #include <petsam/private/problem.h>
 #include <petsam/private/state.h>
-#include <petsam/private/stepcache.h>
 #include <petsam/private/stiffness.h>
 
 /* ---- creation ---- */
@@ -98,44 +97,12 @@ static PetscErrorCode Offer(SamSimulation s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Rejects a load step that no contact of this kind can take. */
-static PetscErrorCode CheckStep(SamSimulation s, PetscInt k)
-{
-  const SamControl control = SamHistoryGetStep(s->history, k);
-  char             where[PETSC_MAX_PATH_LEN + 32];
-
-  PetscFunctionBegin;
-  PetscCall(SamHistoryGetPlace(s->history, k, where, sizeof(where)));
-  PetscCall(SamContactCheckConditions(s->setup.contact, &control, where));
-  PetscCall(SamMotionCheck(s->setup.elasticity, s->conditions, &control, where));
-  PetscCheck(SamProblemGetRolled(s->setup.problem, &control, NULL) == 0 || !s->needs.life, s->comm, SAM_ERR_USER,
-             "roll with -wear_cycles: surfaces that roll are worn step by step: omit one of them");
-  PetscCheck(s->step_rtol == 0 || (SamProblemGetRolled(s->setup.problem, &control, NULL) == 0 &&
-                                   SamMotionOf(s->setup.elasticity)->continues),
-             s->comm, SAM_ERR_USER, "-step_rtol with rolling, which has no estimate of the energy's error: use -steps");
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/*
-  Rejects a load history with an inconsistent step before the first one is solved; checks the ends of rows first, since
-  their values are those of the file.
-*/
-static PetscErrorCode CheckSteps(SamSimulation s)
-{
-  PetscFunctionBegin;
-  for (PetscInt k = 0; k < s->needs.steps; k = SamHistoryNextEnd(s->history, k))
-    if (SamHistoryIsLast(s->history, k)) PetscCall(CheckStep(s, k));
-  for (PetscInt k = 0; k < s->needs.steps; k = SamHistoryNextEnd(s->history, k))
-    if (!SamHistoryIsLast(s->history, k)) PetscCall(CheckStep(s, k));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* Prepares all objects that depend on both the contact and the load history. */
 static PetscErrorCode Prepare(SamSimulation s, const SamOptions *from)
 {
   PetscFunctionBegin;
   PetscCall(SamSimulationCreateLife(s));
-  PetscCall(CheckSteps(s));
+  PetscCall(SamSimulationCheckSteps(s));
   PetscCall(Offer(s));
   PetscCall(SamOutputSettingsPrepare(&s->output_settings, s->setup.contact, from));
   PetscCall(SamSimulationCollectParameters(s));
@@ -153,36 +120,6 @@ PetscErrorCode SamSimulationSetUp(SamSimulation s, const SamOptions *from)
 }
 
 /* ---- results ---- */
-
-/*
-  Estimates a step's time (s) roughly from the time of operator applications with contact on half of the grid, which are
-  half of the step's time. Most steps with friction need 15 of them for the shear, steps without friction 12 for the
-  pressure.
-*/
-static PetscErrorCode GuessTime(SamSimulation s, double *seconds)
-{
-  const int products[2] = {12, 15};
-  Vec       field;
-
-  PetscFunctionBegin;
-  *seconds = 0;
-  for (PetscInt c = 0; c <= (PetscInt)s->needs.friction; c++) {
-    PetscErrorCode (*const apply)(SamElasticity, Vec, Vec) =
-      c ? SamElasticityApplyTangential : SamElasticityApplyNormal;
-    double began = 0;
-
-    PetscCall(SamGridCreateVec(s->setup.grid, c + 1, &field));
-    for (int k = 0; k < 3; k++) { /* the first application creates the data that all need */
-      PetscCall(VecSet(field, 1));
-      if (k == 1) began = MPI_Wtime();
-      PetscCall((*apply)(s->setup.elasticity, field, field));
-    }
-    *seconds += products[c] * (MPI_Wtime() - began) / 2;
-    PetscCall(VecDestroy(&field));
-  }
-  PetscCall(SamMax(s->comm, 1, seconds));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
 
 /* Restores the state, opens the results, and reports the beginning; `writes`: if false, no file is changed. */
 static PetscErrorCode Begin(SamSimulation s, PetscBool writes)
@@ -219,7 +156,7 @@ static PetscErrorCode Begin(SamSimulation s, PetscBool writes)
     start->replaced = SamOutputHasReplaced(s->output);
     PetscCall(SamSimulationForecast(s, start->size, sizeof(start->size)));
   }
-  if (!writes) PetscCall(GuessTime(s, &start->seconds));
+  if (!writes) PetscCall(SamSimulationGuessTime(s, &start->seconds));
   if (s->errors) start->seconds *= 1 + start->share;
   SamSimulationDescribeCheckpoints(s, start->when, sizeof(start->when));
   PetscCall(SamSimulationNotify(s, &(SamSimulationEvent){.kind = SAM_NOTIFY_BEGIN, .start = start}));
@@ -482,14 +419,8 @@ PetscErrorCode SamSimulationReset(SamSimulation s)
 
 PetscErrorCode SamSimulationTakeOver(SamSimulation s, SamSimulation from)
 {
-  SamState  state;
-  PetscBool current;
-
   PetscFunctionBegin;
-  PetscCall(SamContactGetState(from->setup.contact, &state));
-  PetscCall(SamContactIsGapCurrent(from->setup.contact, &current));
-  PetscCall(SamContactSetState(s->setup.contact, state, current));
-  PetscCall(SamStepCacheCopy(SamContactGetCache(from->setup.contact), SamContactGetCache(s->setup.contact)));
+  PetscCall(SamContactTakeOver(s->setup.contact, from->setup.contact));
   PetscCall(SamErrorsCopy(s, from));
   SamSimulationForgetAdvice(s);
   if (s->gradient) SamGradientForget(s->gradient);

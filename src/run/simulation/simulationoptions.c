@@ -3,7 +3,6 @@
 #include <petsam/private/elasticity.h>
 #include <petsam/private/arguments.h>
 #include <petsam/private/lawimpl.h>
-#include <petsam/private/solutionimpl.h>
 #include <petsam/private/base.h>
 #include <petsam/private/problem.h>
 #include <string.h>
@@ -11,62 +10,6 @@
 
 #define FLUSH        2.0 /* seconds that steps without fields may wait to be written, and their lines with them */
 #define FLUSH_FIELDS 0.1 /* the same of steps with fields */
-
-/* Rejects moments and rotations that the bodies do not have, and components that laws reject, by the name that the user
-   gave. */
-static PetscErrorCode CheckComponents(SamSimulation s, const SamOptions *from)
-{
-  PetscInt       wrong;
-  char           why[192];
-  const PetscInt count = SamHistoryGetCount(s->history);
-
-  PetscFunctionBegin;
-  for (PetscInt k = 0; k < count; k = SamHistoryNextEnd(s->history, k)) {
-    SamControl control = SamHistoryGetStep(s->history, k);
-
-    PetscCall(SamProblemCheckControl(s->setup.problem, &control, &wrong, why, sizeof(why)));
-    PetscCheck(!why[0], from->comm, SAM_ERR_USER, "-%s%s, or its column in -history: %.6g: %s", SamOptionsPrefix(from),
-               SamControlPartName(&control, s->conditions, wrong),
-               (double)SamControlPart(&control, s->conditions, wrong), why);
-    for (PetscInt c = SAM_COMPONENT_MX; c < SAM_COMPONENTS; c++) {
-      char      place[PETSC_MAX_PATH_LEN + 32];
-      PetscBool given;
-
-      if (control.value[c] == 0 || SamElasticityGetTraits(s->setup.elasticity).rotations[c - SAM_COMPONENT_MX])
-        continue;
-      PetscCall(SamOptionsHas(from, SamComponentNameOf(c, SamControlWay(&control, c)), &given));
-      PetscCall(SamHistoryGetPlace(s->history, k, place, sizeof(place)));
-      if (given || !place[0]) (void)snprintf(place, sizeof(place), "-%s", SamOptionsPrefix(from));
-      SETERRQ(from->comm, SAM_ERR_USER,
-              "%s%s %.6g: has no meaning with -%selasticity %s, which has no such moment or rotation", place,
-              SamComponentNameOf(c, SamControlWay(&control, c)), (double)control.value[c], SamOptionsPrefix(from),
-              SamElasticityKeyword(s->setup.elasticity));
-    }
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Rejects laws that are incompatible with the other options. */
-static PetscErrorCode CheckLaws(SamSimulation s, const SamOptions *from)
-{
-  const SamLaw *laws;
-  PetscInt      count;
-
-  PetscFunctionBegin;
-  PetscCall(SamProblemGetLaws(s->setup.problem, &count, &laws));
-  for (PetscInt k = 0; k < count; k++) {
-    PetscCheck(!laws[k]->needs_friction || s->needs.friction, from->comm, SAM_ERR_USER,
-               "-%s is given without -friction, on which it acts: give -friction, or remove it", laws[k]->option);
-    PetscCheck(!laws[k]->by_passages || s->needs.life || !SamMotionOf(s->setup.elasticity)->streams, from->comm,
-               SAM_ERR_USER, "-%s with -rolling steady is that of passages: give their number, -wear_cycles",
-               laws[k]->option);
-    PetscCheck(!laws[k]->forbids_jumps || !s->needs.life, from->comm, SAM_ERR_USER,
-               "-%s with -wear_cycles: cycle jumps ignore what it changes in skipped cycles: repeat the rows in "
-               "-history, or omit one option",
-               SamLawOption(laws[k]));
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
 
 /* Reads the settings of the cycles; a table of friction sets the problem's coefficient at the start. */
 static PetscErrorCode ReadPlan(SamSimulation s, PetscBool given, const SamOptions *from)
@@ -120,11 +63,9 @@ static PetscErrorCode ReadResults(SamSimulation s, const SamOptions *from)
 /* Reads the options of the contact (bodies, gap, friction), and the files. */
 static PetscErrorCode ReadContact(SamSimulation s, const SamOptions *from)
 {
-
   PetscFunctionBegin;
   PetscCall(SamSetupReadOptions(&s->setup, from));
-  s->conditions    = SamProblemGetConditions(s->setup.problem);
-  s->needs.coupled = SamElasticityGetTraits(s->setup.elasticity).coupled;
+  s->conditions = SamProblemGetConditions(s->setup.problem);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -153,8 +94,7 @@ static PetscErrorCode SetProgram(SamSimulation s, SamHistory history, PetscReal 
              "-step_rtol with -wear_cycles: all computed cycles must have the same load steps: use -steps");
   PetscCall(SamLifeOptionsSetCycles(&s->plan, cycles, s->setup.problem, from));
   PetscCall(SamLifeOptionsCheckCycle(&s->plan, history, s->setup.problem, from));
-  PetscCall(CheckLaws(s, from));
-  PetscCall(CheckComponents(s, from));
+  PetscCall(SamSimulationCheckProgram(s, from));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

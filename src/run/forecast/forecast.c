@@ -1,5 +1,5 @@
-/* Estimates, before a step is solved, how much of the grid the contact will take, for the estimate of the memory. */
-#include "run.h"
+/* Estimates, before a step is solved, how much of the grid the contact will take, for the memory, and the time. */
+#include "forecast.h"
 #include <math.h>
 #include <petsam/private/advice.h>
 #include <petsam/private/balance.h>
@@ -86,6 +86,7 @@ PetscErrorCode SamSimulationEstimateShares(SamSimulation s, SamSimulationNeeds *
   PetscFunctionBegin;
   PetscCall(PetscOptionsGetString(NULL, NULL, "-slip_direction", direction, sizeof(direction), NULL));
   PetscCall(PetscStrcmp(direction, "end", &end));
+  needs->coupled = SamElasticityGetTraits(s->setup.elasticity).coupled;
   needs->touches = end ? SAM_TOUCHES_NEVER : FindTouches(s);
   needs->contact = UNKNOWN;
   needs->part    = 0;
@@ -94,5 +95,35 @@ PetscErrorCode SamSimulationEstimateShares(SamSimulation s, SamSimulationNeeds *
   needs->contact = ShareOf(g, half);
   for (PetscInt k = 0; k < g->axes; k++) n[k] = 2 * half[k] < g->width[k] ? (PetscInt)ceil(2 * half[k] / d[k]) : all[k];
   needs->part = SamElasticityGetPartShare(s->setup.elasticity, n);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/*
+  Estimates a step's time (s) roughly from the time of operator applications with contact on half of the grid, which are
+  half of the step's time. Most steps with friction need 15 of them for the shear, steps without friction 12 for the
+  pressure.
+*/
+PetscErrorCode SamSimulationGuessTime(SamSimulation s, double *seconds)
+{
+  const int products[2] = {12, 15};
+  Vec       field;
+
+  PetscFunctionBegin;
+  *seconds = 0;
+  for (PetscInt c = 0; c <= (PetscInt)s->needs.friction; c++) {
+    PetscErrorCode (*const apply)(SamElasticity, Vec, Vec) =
+      c ? SamElasticityApplyTangential : SamElasticityApplyNormal;
+    double began = 0;
+
+    PetscCall(SamGridCreateVec(s->setup.grid, c + 1, &field));
+    for (int k = 0; k < 3; k++) { /* the first application creates the data that all need */
+      PetscCall(VecSet(field, 1));
+      if (k == 1) began = MPI_Wtime();
+      PetscCall((*apply)(s->setup.elasticity, field, field));
+    }
+    *seconds += products[c] * (MPI_Wtime() - began) / 2;
+    PetscCall(VecDestroy(&field));
+  }
+  PetscCall(SamMax(s->comm, 1, seconds));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
