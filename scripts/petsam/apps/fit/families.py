@@ -1,6 +1,6 @@
 """The family of scars over the cycles of a test, by one wear simulation, and the same on a second grid.
 
-Scars of wear simulations have errors by the cells, by the steps of a cycle and by the jumps over cycles. The second
+Scars of wear simulations have errors by the cells, by the steps of a cycle and by cycle jumps. The second
 family has half the cells, twice the steps and jumps of its own: what a fit finds with it differs by about these errors.
 """
 

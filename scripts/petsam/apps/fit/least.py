@@ -70,7 +70,7 @@ def neighbours(parts: Sequence[np.ndarray]) -> float:
 
 
 def correlated(neighbours: float, misfit: float = np.inf) -> str:
-    """What is said of residuals whose neighbours correlate too much for the model to hold; empty if they do not, or if
+    """Returns words on residuals whose neighbours correlate too much for the model to hold; empty if they do not, or if
     their root mean square, in units of the noise, is that of the noise."""
     if not (neighbours > CORRELATED and misfit > MISFIT):
         return ""

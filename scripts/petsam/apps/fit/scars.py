@@ -4,7 +4,8 @@ The depth of a scar depends on the product of coefficient and cycles only, where
 the surfaces slide: one wear simulation with outputs over its cycles is the whole family of scars. What is found is the
 member of the family, a shift along x, and height and tilt of the unworn surface. A profile that is deeper or shallower
 than all of the family is none of its members: another simulation begins from the volume, since k = V/(P s) of load P
-and path s, where the family has P s.
+and path s, where the family has P s. The error of the cells, steps and jumps of the family is part of the
+deviation: half of what a second, coarser family changes (families.py).
 
 Residuals of neighbouring points of a profile are not independent: with their correlation r, deviations are larger by
 sqrt((1 + r)/(1 - r)). Where they are correlated over most of the scar, its shape is not that of the family: of profiles
@@ -35,6 +36,7 @@ SMALLER = 30.0  # and where the grid is too narrow for a first scar
 END = 0.01  # relative distance from the end of a range, within which a number is at it
 INDEPENDENT = 3.0  # independent points for each parameter, below which residuals are correlated over the scar
 MATTERS = 0.02  # misfit over depth, below which that does not matter
+BY_GRID = 0.5  # of what a second grid changes: of four shapes the errors were 0.1 to 0.4 of it
 HELD = 0.5  # deviation over the coefficient, above which that is not identifiable
 NONE = 3.0  # deviations of its volume, below which a profile without a coefficient has no scar
 RISES = 5.0  # times the noise of its ends by which a profile lies above the line through them, if it is no scar
@@ -146,10 +148,11 @@ def fit_scar(one: Family, x: ArrayLike, height: ArrayLike, tilt: bool = True, le
     scale, width, found = float(np.ptp(height)), float(np.ptp(one.x)), best.found.x
     neighbours = _correlation(best.residuals, len(found))
     noise = _by_noise(best, neighbours)
-    grid = float(abs(found[0] - _best(one.second, x, height, tilt, level).found.x[0])) if one.second else np.nan
+    second = _best(one.second, x, height, tilt, level) if one.second else None
+    grid = BY_GRID * float(abs(found[0] - second.found.x[0])) if second else np.nan
     relative = float(np.hypot(noise, np.nan_to_num(grid)))
     doubt = _doubt(one, best, x, height, level, noise, grid)
-    warning = "" if doubt else _warning(best.residuals, neighbours, scale)
+    warning = "" if doubt else _warning(best, second, neighbours, FLOOR * scale)
     coefficient = float("nan") if doubt else float(np.exp(found[0])) / one.life
     return Scar(
         coefficient, coefficient * relative, float(found[1] * width), float(found[2] * scale) if level else 0.0,
@@ -192,10 +195,11 @@ def _by_noise(best, neighbours):
     return float(np.sqrt(variance * max(widened, count / _points(best.residuals))) * least.bands(best.found.jac).sd[0])
 
 
-def _warning(residuals, neighbours, scale):
-    """What makes a coefficient doubtful: residuals that are not white noise; empty if they are."""
-    misfit = float(np.sqrt(np.mean(residuals**2)))
-    correlated = least.correlated(neighbours, misfit / max(noise_of(residuals), FLOOR * scale))
+def _warning(best, second, neighbours, floor):
+    """Warning of residuals that are neither white noise nor the error of the grid; else empty."""
+    misfit = float(np.sqrt(np.mean(best.residuals**2)))
+    by_grid = float(np.sqrt(np.mean((best.curve - second.curve) ** 2))) if second else 0.0
+    correlated = least.correlated(neighbours, misfit / np.hypot(max(noise_of(best.residuals), floor), by_grid))
     return correlated and (
         f"{correlated}: the model does not describe the profile, which is {1e6 * misfit:.3g} um off, and not by white "
         "noise; the deviation has no error of the model: look at radii, load, stroke and --split, and leave out debris"
@@ -276,7 +280,7 @@ def _doubt(one, best, x, height, level, noise, grid):
     if noise > HELD:
         return f"its noise leaves a deviation of {100 * noise:.2g} %: average several profiles"
     if grid > HELD:
-        return f"cells twice as wide change it by {100 * grid:.2g} %: give a larger -grid_n"
+        return f"the error of the grid is {100 * grid:.2g} %: give a larger -grid_n"
     return ""
 
 
@@ -417,23 +421,37 @@ def split(
     other = "wear_coefficient" + ("1" if body == "2" else "2")
     tried = list(ratios)
     found: list[Scar] = []
+    second: list[float] = []  # misfits on the second grid
     while len(found) < len(tried):
-        found.append(fit_profile(shape, life, x, height, body, {other: tried[len(found)] * own})[0])
+        scar, one = fit_profile(shape, life, x, height, body, {other: tried[len(found)] * own})
+        found.append(scar)
+        if one.second:
+            residuals = _best(one.second, scar.x, scar.height, True, True).residuals
+            second.append(float(np.sqrt(np.mean(residuals**2))))
         misfits = np.array([scar.misfit for scar in found])
         if len(found) == len(tried) and misfits.argmin() == len(tried) - 1 and tried[-1] < MOST_RATIO:
             tried.append(GROWS * tried[-1])
-    k = int(np.clip(np.argmin(misfits), 1, len(misfits) - 2))
-    curve = np.polyfit(tried[k - 1 : k + 2], misfits[k - 1 : k + 2] ** 2, 2)  # of the mean square
     scar = found[int(np.argmin(misfits))]
-    best = float(-curve[1] / (2.0 * curve[0])) if curve[0] > 0.0 else np.nan
-    least = float(np.polyval(curve, best))
-    points = len(scar.x) * (1.0 - min(scar.neighbours, 0.99)) / (1.0 + max(scar.neighbours, 0.0))
-    points = max(1.0, points - 4.0)  # independent ones, less those that the fit takes
-    deviation = float(np.sqrt(max(least, 0.0) / (points * curve[0]))) if curve[0] > 0.0 else np.nan
+    best, deviation = _lowest(tried, misfits, scar)
+    if len(second) == len(found):
+        deviation = float(np.hypot(deviation, BY_GRID * (best - _lowest(tried, np.array(second), scar)[0])))
     doubt = _doubt_of_ratio(best, deviation, tried, scar)
     if doubt:
         best = deviation = np.nan
     return Split(best, deviation, np.array(tried), misfits, scar, doubt)
+
+
+def _lowest(tried, misfits, scar):
+    """The ratio of least misfit by the parabola of the mean square about it, and its deviation by the noise; NaN where
+    there is none."""
+    k = int(np.clip(np.argmin(misfits), 1, len(misfits) - 2))
+    curve = np.polyfit(tried[k - 1 : k + 2], misfits[k - 1 : k + 2] ** 2, 2)
+    if not curve[0] > 0.0:
+        return np.nan, np.nan
+    best = float(-curve[1] / (2.0 * curve[0]))
+    points = len(scar.x) * (1.0 - min(scar.neighbours, 0.99)) / (1.0 + max(scar.neighbours, 0.0))
+    points = max(1.0, points - 4.0)  # independent ones, less those that the fit takes
+    return best, float(np.sqrt(max(float(np.polyval(curve, best)), 0.0) / (points * curve[0])))
 
 
 def _doubt_of_ratio(best, deviation, ratios, scar):
