@@ -1019,7 +1019,7 @@ def test_bands_of_scars_have_the_error_of_the_grid(scars, coarse):
     _, one = scars
     chance, inside = np.random.default_rng(4), 0
     assert len(coarse.second.x) == 20
-    for truth in np.geomspace(0.25, 1.4, 10) * 2.9e-14:
+    for truth in np.geomspace(0.25, 1.0, 10) * 2.9e-14:
         x, height = profile(one, truth * 18000, chance, r=0.0, noise=5e-9)
         found = petsam.fit.fit_scar(coarse, x, height)
         plain = petsam.fit.fit_scar(replace(coarse, second=None), x, height)
@@ -1044,7 +1044,8 @@ def test_a_scar_that_the_model_does_not_describe_is_told(scars):
 def test_few_cycles_are_a_family(scars):
     """Of 3 and of 18,000 cycles whose products are alike."""
     path, one = scars
-    few = {"wear_coefficient1": 1.9e-14 * 6000, "wear_coefficient2": 2.9e-14 * 6000, "grid_n": "40,1"}
+    few = {"wear_coefficient1": 1.9e-14 * 6000, "wear_coefficient2": 2.9e-14 * 6000, "grid_n": "50,1"}
+    few["grid_size"] = 8e-4
     found = petsam.fit.family(path, 3, options=few)
     assert found.whole and found.product / (2.9e-14 * 6000) == pytest.approx(np.arange(1.0, 6.0))
     worn = [np.trapezoid(each.at(2.9e-14 * 18000, each.x), each.x) for each in (one, found)]
@@ -1059,6 +1060,27 @@ def test_a_family_is_smooth_between_its_outputs(scars):
         off = rest.at(one.product[k], one.x) - one.depth[k]
         assert abs(off.sum()) < 1e-3 * one.depth[k].sum()  # by straight lines 2 %
         assert np.sqrt(np.mean(off**2)) < 8e-3 * one.depth[k].max()  # mostly where the scar ends
+
+
+@pytest.mark.parametrize(
+    "depth, start, said", [(0.0, 2.9e-14, "it has no scar: the volume"), (20.0, 2.9e-12, "deeper than the deepest")]
+)
+def test_a_scar_of_no_coefficient_has_the_reason(scars, fit, tmp_path, depth, start, said):
+    """Noise alone, and a scar as wide as the family's that is many times as deep; both after several families."""
+    path, one = scars
+    x, height = profile(one, 1.4e-14 * 18000, np.random.default_rng(3), noise=2e-8)
+    rough = height - (5e-7 + 3e-4 * x) + one.at(1.4e-14 * 18000, x - 4e-6)
+    height = rough - depth * one.at(1.4e-14 * 18000, x)
+    rows = "".join(f"{1e3 * a:.6f},{1e6 * b:.6f}\n" for a, b in zip(x, height))
+    (tmp_path / "profile.csv").write_text("x [mm],test [um]\n" + rows)
+    shape = with_start(path, tmp_path / "start.opts", start)
+    printed = fit("--scar", "profile.csv", "--shape", shape, "--life", "18000", "-o", "worn", "--no-picture", check=10)
+    found = json.loads((tmp_path / "worn.json").read_text())
+    assert (
+        found["wear_coefficient2"] is None
+        and said in found["wear_doubt"]
+        and f"no numbers: {found['wear_doubt']}" in printed
+    )
 
 
 def test_a_scar_beyond_its_family_has_no_number(scars):

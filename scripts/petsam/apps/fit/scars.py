@@ -357,6 +357,8 @@ def _between(small, start, large):
 
 def _way(one, scar):
     """Where the next family is to be looked for: 1 at deeper scars, -1 at shallower ones, 0 nowhere."""
+    if one.depth[0].max() < noise_of(scar.height) and _flat(scar.x, scar.height, True):
+        return 0
     if scar.end or not scar.doubt:
         return scar.end
     product = _begin(one, scar.x, scar.height, True)[0]  # a scar that does not fit at all may be far away
