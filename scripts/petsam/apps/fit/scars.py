@@ -31,6 +31,7 @@ from .push import options_of
 
 EDGE = 0.02  # of the depth: where a scar ends
 WIDENINGS = 6  # families at most, until one has the scar
+FAR = 2.0  # the volume over that of the family from which on that has no scar like the profile
 BEYOND = 1000.0  # the most that the start of the next one changes by, by the volume,
 SMALLER = 30.0  # and where the grid is too narrow for a first scar
 END = 0.01  # relative distance from the end of a range, within which a number is at it
@@ -332,12 +333,15 @@ def fit_profile(
             large = start or float(options_of(shape)[f"wear_coefficient{body}"])
             start = _between(small, large / SMALLER, large)
             continue
-        scar = fit_scar(used, x, height)
-        way = _way(used, scar)
+        product = _begin(used, x, height, True)[0]
+        way = _way(used, x, height, product)
         if not left or not way or way > 0 and not used.whole:
-            break
+            scar = fit_scar(used, x, height)
+            way = 0 if _lost(used, x, height) else scar.end
+            if not left or not way or way > 0 and not used.whole:
+                break
         small, large = (used.start, large) if way > 0 else (small, used.start)
-        part = _begin(used, scar.x, scar.height, True)[0] / life / used.start
+        part = product / life / used.start
         part = float(np.clip(part, *((2.0, BEYOND) if way > 0 else (1.0 / BEYOND, 0.25))))
         start, one = _between(small, part * used.start, large), None
     if used.second or scar.doubt:
@@ -355,14 +359,17 @@ def _between(small, start, large):
     return start if small < start < large else float(np.sqrt(small * large))
 
 
-def _way(one, scar):
-    """Where the next family is to be looked for: 1 at deeper scars, -1 at shallower ones, 0 nowhere."""
-    if one.depth[0].max() < noise_of(scar.height) and _flat(scar.x, scar.height, True):
+def _way(one, x, height, product):
+    """Where the volume of a profile is: 1 far beyond the deepest scar, -1 far below the shallowest, else 0. Far from
+    the profile all scars of a family are equally bad, and the best of them tells nothing."""
+    if _lost(one, x, height):
         return 0
-    if scar.end or not scar.doubt:
-        return scar.end
-    product = _begin(one, scar.x, scar.height, True)[0]  # a scar that does not fit at all may be far away
-    return int(product > 2.0 * one.product[-1]) - int(product < 0.5 * one.product[0])
+    return int(product > FAR * one.product[-1]) - int(product < one.product[0] / FAR)
+
+
+def _lost(one, x, height):
+    """True if a profile is no deeper than its noise, and the family has scars that are lost in it."""
+    return bool(one.depth[0].max() < noise_of(height)) and _flat(x, height, True)
 
 
 @brief
