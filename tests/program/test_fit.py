@@ -1062,6 +1062,22 @@ def test_a_family_is_smooth_between_its_outputs(scars):
         assert np.sqrt(np.mean(off**2)) < 8e-3 * one.depth[k].max()  # mostly where the scar ends
 
 
+@pytest.mark.parametrize("part", [1e-3, 1e-2, 1e2, 1e3])
+def test_a_family_far_from_the_scar_leads_to_it_by_the_volume(scars, monkeypatch, part):
+    """Noise of a tenth of the depth, in which all scars of a far family are equally bad."""
+    path, one = scars
+    chance, starts = np.random.default_rng(6), []
+    far = replace(one, depth=part * one.depth, product=part * one.product, start=part * one.start)
+    monkeypatch.setattr(petsam.fit.scars, "family", lambda *given: starts.append(given[-1]) or one)
+    monkeypatch.setattr(petsam.fit.scars, "with_second", lambda used, *rest: used)
+    for _ in range(10):
+        x, height = profile(one, 1.5e-14 * 18000, chance, r=0.0, noise=0.1 * one.depth[-8].max())
+        found, used = petsam.fit.fit_profile(path, 18000, x, height, one=far)
+        assert used is one and abs(found.coefficient - 1.5e-14) < 4 * found.coefficient_sd < 1e-14
+        assert 0.7e-14 < starts[-1] < 3e-14
+    assert len(starts) == 10
+
+
 @pytest.mark.parametrize(
     "depth, start, said", [(0.0, 2.9e-14, "it has no scar: the volume"), (20.0, 2.9e-12, "deeper than the deepest")]
 )
