@@ -1025,7 +1025,9 @@ def test_bands_of_scars_have_the_error_of_the_grid(scars, coarse):
         plain = petsam.fit.fit_scar(replace(coarse, second=None), x, height)
         assert found.coefficient == plain.coefficient and np.isnan(plain.by_grid)
         assert found.coefficient_sd == pytest.approx(found.coefficient * np.hypot(found.by_noise, found.by_grid))
-        inside += abs(found.coefficient - truth) < 2 * found.coefficient_sd < 0.3 * truth
+        second = petsam.fit.fit_scar(coarse.second, x, height)
+        assert found.by_grid == pytest.approx(0.5 * abs(np.log(second.coefficient / found.coefficient)))
+        inside += abs(found.coefficient / truth - 1.0) < 2 * found.by_grid < 0.05
     assert inside >= 9
 
 
