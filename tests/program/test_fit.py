@@ -796,6 +796,29 @@ def test_wear_is_volume_over_energy(fit, tmp_path):
     assert np.mean([loop.energy for loop in lost]) > 1.01 * energy / 1000
 
 
+@pytest.mark.parametrize("stroke, noise, points", [(1.5, 0.005, 200), (0.5, 0.005, 200), (1.5, 0.05, 60)])
+def test_bands_of_energies_are_their_scatter(stroke, noise, points):
+    loops = [twin(np.random.default_rng(k), None, stroke, noise=noise, points=points) for k in range(200)]
+    scatter = np.std([loop.energy for loop in loops])
+    assert np.mean([loop.energy_sd for loop in loops]) == pytest.approx(scatter, rel=0.15)
+
+
+def test_energies_have_bands(fit, tmp_path):
+    """By the noise, and by the loss of the rig, which cycles share; those of the volume over energy have both."""
+    chance = np.random.default_rng(5)
+    write(tmp_path / "loops.csv", [twin(chance, None, 1.5, loss=0.01) for _ in range(8)])
+    words = ("loops.csv", "--normal", "1kN", "--shape", "ball.opts", "--volume", "1e6um3", "--life", "1000")
+    bands = {}
+    for loss in ("1%", "1%,0.3%"):
+        said = fit(*words, "--loss", loss, "-o", "worn", "--no-picture")
+        found = json.loads((tmp_path / "worn.json").read_text())
+        first = found["cycles"][0]
+        assert f"energy {first['energy']:.4g} +- {first['energy_sd']:.2g} J in the first cycle" in said
+        bands[loss] = first["energy_sd"] / first["energy"]
+        assert found["volume_over_energy2_sd"] / found["volume_over_energy2"] < bands[loss]
+    assert 0.0 < bands["1%"] < bands["1%,0.3%"] < 0.02
+
+
 def test_plans_are_printed_and_written(fit, tmp_path):
     words = ("--plan", "--normal", "1kN", "--shape", "ball.opts", "--friction", "0.6", "--rig", "20N/um")
     said = fit(*words, "-o", "plan")
@@ -847,7 +870,7 @@ def test_a_result_is_a_table_and_a_picture(tmp_path):
     write(tmp_path / "lab.csv", [twin(np.random.default_rng(k), None, 2.0, 2e7) for k in range(3)])
     found = petsam.fit.analyse([petsam.fit.cycles(petsam.fit.read("lab.csv"), N)], [PUSH])
     names = [column.name for column in found.table()]
-    assert names == ["cycle", "friction", "friction_sd", "compliance", "compliance_sd", "energy"]
+    assert names == ["cycle", "friction", "friction_sd", "compliance", "compliance_sd", "energy", "energy_sd"]
     assert found.state == "known" and found.identifiable and abs(found.friction - MU) < 3 * found.friction_sd
     figure = package.plot.fit(found)
     assert len(figure.axes) == 2 and len(figure.axes[0].lines) == 4
@@ -925,7 +948,7 @@ def test_a_profile_that_rises_is_no_scar(scars, fit, tmp_path):
         with pytest.raises(Error, match="rises between its ends, by up to .* um, and a scar is negative"):
             petsam.fit.fit_scar(one, x, heights, level=level)
     for _ in range(20):
-        assert petsam.fit.fit_scar(one, x, 1e-8 * chance.standard_normal(x.size)).doubt
+        assert "it has no scar" in petsam.fit.fit_scar(one, x, 1e-8 * chance.standard_normal(x.size)).doubt
     for spoilt in (np.where(x > 2e-4, np.nan, height), height[:4]):
         with pytest.raises(Error, match="finite numbers, of more than 6 points: leave out lost ones"):
             petsam.fit.fit_scar(one, x, spoilt)
@@ -968,9 +991,9 @@ def with_start(path, name, coefficient, radius="6e-3"):
     return name
 
 
-@pytest.mark.parametrize("start", [1e-16, 1.5e-14, 1e-10])
+@pytest.mark.parametrize("start", [2.9e-17, 1.5e-14, 2.9e-11])
 def test_a_scar_does_not_depend_on_the_start(scars, fit, tmp_path, start):
-    """Its coefficient is beyond the range of 1.6 times the start, far below it, or its family leaves the grid."""
+    """Its coefficient is a thousand times the start, in its range, or a thousandth, whose family leaves the grid."""
     path, one = scars
     x, height = profile(one, 2.9e-14 * 18000, np.random.default_rng(3), noise=2e-8)
     rows = "".join(f"{1e3 * a + 7:.6f},{1e6 * b:.6f}\n" for a, b in zip(x, height))  # anywhere along x
@@ -979,6 +1002,103 @@ def test_a_scar_does_not_depend_on_the_start(scars, fit, tmp_path, start):
     fit("--scar", "profile.csv", "--shape", shape, "--life", "18000", "-o", "worn", "--no-picture")
     found = json.loads((tmp_path / "worn.json").read_text())
     assert abs(found["wear_coefficient2"] - 2.9e-14) < 3 * found["wear_coefficient2_sd"] < 1e-15
+
+
+@pytest.fixture(scope="module")
+def coarse(scars):
+    """The family on a quarter of the cells and half of the rows, with its second one."""
+    path, _ = scars
+    rows = "".join(f"{k + 1},{25e-6 * np.cos(2 * np.pi * k / 8):.9g}\n" for k in range(9))
+    (path.parent / "rows.csv").write_text("time,disp_x\n" + rows)
+    few = {"grid_n": "40,1", "history": str(path.parent / "rows.csv")}
+    return petsam.fit.families.with_second(petsam.fit.family(path, 18000, options=few), path, few)
+
+
+def test_bands_of_scars_have_the_error_of_the_grid(scars, coarse):
+    """Profiles of a grid four times as fine with hardly any noise: the error is that of the cells and steps."""
+    _, one = scars
+    chance, inside = np.random.default_rng(4), 0
+    assert len(coarse.second.x) == 20
+    for truth in np.geomspace(0.25, 1.0, 10) * 2.9e-14:
+        x, height = profile(one, truth * 18000, chance, r=0.0, noise=5e-9)
+        found = petsam.fit.fit_scar(coarse, x, height)
+        plain = petsam.fit.fit_scar(replace(coarse, second=None), x, height)
+        assert found.coefficient == plain.coefficient and np.isnan(plain.by_grid)
+        assert found.coefficient_sd == pytest.approx(found.coefficient * np.hypot(found.by_noise, found.by_grid))
+        second = petsam.fit.fit_scar(coarse.second, x, height)
+        assert found.by_grid == pytest.approx(0.5 * abs(np.log(second.coefficient / found.coefficient)))
+        inside += abs(found.coefficient / truth - 1.0) < 2 * found.by_grid < 0.05
+    assert inside >= 9
+
+
+def test_a_scar_that_the_model_does_not_describe_is_told(scars):
+    """Waves of 12 points, that noise of neighbours may be, too, and a deeper middle; white noise is not told."""
+    _, one = scars
+    chance = np.random.default_rng(5)
+    x, height = profile(one, 2.5e-14 * 18000, chance, r=0.0, noise=2e-8)
+    assert petsam.fit.fit_scar(one, x, height).warning == ""
+    for more in (8e-8 * np.sin(2 * np.pi * x / 1e-4), -1.5e-7 * np.exp(-((x / 4e-5) ** 2))):
+        found = petsam.fit.fit_scar(one, x, height + more)
+        assert found.neighbours > 0.3 and "neighbouring residuals correlate by 0." in found.warning + found.doubt
+        assert found.by_noise > petsam.fit.fit_scar(one, x, height).by_noise
+
+
+def test_few_cycles_are_a_family(scars):
+    """Of 3 and of 18,000 cycles whose products are alike."""
+    path, one = scars
+    few = {"wear_coefficient1": 1.9e-14 * 6000, "wear_coefficient2": 2.9e-14 * 6000, "grid_n": "50,1"}
+    few["grid_size"] = 8e-4
+    found = petsam.fit.family(path, 3, options=few)
+    assert found.whole and found.product / (2.9e-14 * 6000) == pytest.approx(np.arange(1.0, 6.0))
+    worn = [np.trapezoid(each.at(2.9e-14 * 18000, each.x), each.x) for each in (one, found)]
+    assert worn[1] == pytest.approx(worn[0], rel=0.02)
+
+
+def test_a_family_is_smooth_between_its_outputs(scars):
+    """Depths at an output are those without it."""
+    _, one = scars
+    for k in range(3, 16):
+        rest = replace(one, depth=np.delete(one.depth, k, 0), product=np.delete(one.product, k))
+        off = rest.at(one.product[k], one.x) - one.depth[k]
+        assert abs(off.sum()) < 1e-3 * one.depth[k].sum()  # by straight lines 2 %
+        assert np.sqrt(np.mean(off**2)) < 8e-3 * one.depth[k].max()  # mostly where the scar ends
+
+
+@pytest.mark.parametrize("part", [1e-3, 1e-2, 1e2, 1e3])
+def test_a_family_far_from_the_scar_leads_to_it_by_the_volume(scars, monkeypatch, part):
+    """Noise of a tenth of the depth, in which all scars of a far family are equally bad."""
+    path, one = scars
+    chance, starts = np.random.default_rng(6), []
+    far = replace(one, depth=part * one.depth, product=part * one.product, start=part * one.start)
+    monkeypatch.setattr(petsam.fit.scars, "family", lambda *given: starts.append(given[-1]) or one)
+    monkeypatch.setattr(petsam.fit.scars, "with_second", lambda used, *rest: used)
+    for _ in range(10):
+        x, height = profile(one, 1.5e-14 * 18000, chance, r=0.0, noise=0.1 * one.depth[-8].max())
+        found, used = petsam.fit.fit_profile(path, 18000, x, height, one=far)
+        assert used is one and abs(found.coefficient - 1.5e-14) < 4 * found.coefficient_sd < 1e-14
+        assert 0.7e-14 < starts[-1] < 3e-14
+    assert len(starts) == 10
+
+
+@pytest.mark.parametrize(
+    "depth, start, said", [(0.0, 2.9e-14, "it has no scar: the volume"), (20.0, 2.9e-12, "deeper than the deepest")]
+)
+def test_a_scar_of_no_coefficient_has_the_reason(scars, fit, tmp_path, depth, start, said):
+    """Noise alone, and a scar as wide as the family's that is many times as deep; both after several families."""
+    path, one = scars
+    x, height = profile(one, 1.4e-14 * 18000, np.random.default_rng(3), noise=2e-8)
+    rough = height - (5e-7 + 3e-4 * x) + one.at(1.4e-14 * 18000, x - 4e-6)
+    height = rough - depth * one.at(1.4e-14 * 18000, x)
+    rows = "".join(f"{1e3 * a:.6f},{1e6 * b:.6f}\n" for a, b in zip(x, height))
+    (tmp_path / "profile.csv").write_text("x [mm],test [um]\n" + rows)
+    shape = with_start(path, tmp_path / "start.opts", start)
+    printed = fit("--scar", "profile.csv", "--shape", shape, "--life", "18000", "-o", "worn", "--no-picture", check=10)
+    found = json.loads((tmp_path / "worn.json").read_text())
+    assert (
+        found["wear_coefficient2"] is None
+        and said in found["wear_doubt"]
+        and f"no numbers: {found['wear_doubt']}" in printed
+    )
 
 
 def test_a_scar_beyond_its_family_has_no_number(scars):

@@ -14,7 +14,8 @@ cutting     cycles(): cycles of a record, without drift
 series      analyse(): cycles one by one and together (together.py); peaks: of records without loops
 planning    plan(): how well which strokes would give the friction
 runs        fit_contact(): parameters of any contact from numbers of its history, by full runs
-scars       fit_profile(), family(), fit_scar(), split(): the coefficients of wear from the profile of a scar
+families    family(): the scars of a contact over its cycles
+scars       fit_profile(), fit_scar(), split(): the coefficients of wear from the profile of a scar
 results     what the command prints and writes; wear() from a volume
 """
 
@@ -31,7 +32,8 @@ PART = Part(
         "series": ("Result", "analyse"),
         "planning": ("Plan", "plan"),
         "runs": ("ContactFit", "fit_contact"),
-        "scars": ("Family", "Scar", "Split", "family", "fit_profile", "fit_scar", "split"),
+        "families": ("Family", "family"),
+        "scars": ("Scar", "Split", "fit_profile", "fit_scar", "split"),
         "results": ("Wear", "wear"),
     },
     quiet=True,

@@ -293,6 +293,7 @@ def _scar(options):
     numbers = {
         f"wear_coefficient{options.body}": plain(first.coefficient),
         f"wear_coefficient{options.body}_sd": plain(first.coefficient_sd),
+        "wear_doubt": first.doubt or first.warning or None,
         **more,
     }
     return numbers, Unsettled.code if any(doubts) else 0
@@ -300,10 +301,12 @@ def _scar(options):
 
 def _scar_line(scar):
     """The line that is printed of a profile."""
-    number = f"Archard's coefficient {scar.coefficient:.4g} +- {scar.coefficient_sd:.2g} 1/Pa"
+    parts = f"noise {100 * scar.by_noise:.2g} %" + (f", grid {100 * scar.by_grid:.2g} %" if scar.by_grid >= 0 else "")
+    number = f"Archard's coefficient {scar.coefficient:.4g} +- {scar.coefficient_sd:.2g} 1/Pa ({parts})"
     return (
         f"{f'no numbers: {scar.doubt}' if scar.doubt else number}; misfit {1e6 * scar.misfit:.3g} um, neighbours' "
         f"correlation {scar.neighbours:.2f}, shift {1e6 * scar.shift:.3g} um"
+        + (f"; warning: {scar.warning}" if scar.warning else "")
     )
 
 

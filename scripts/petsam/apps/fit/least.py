@@ -4,7 +4,7 @@ Residuals r(p) are in units of their standard deviations, so that the covariance
 What is known of a parameter beforehand, a value p0 and its standard deviation s, is one more residual, (p - p0)/s.
 """
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from typing import Any, NamedTuple, Union
 
 import numpy as np
@@ -14,6 +14,8 @@ from ...core.errors import library
 
 ROUNDING = 3e-8  # of singular values of a Jacobian of columns of length 1: about the root of the rounding
 PART = 0.01  # of a parameter, squared, in directions without effect, from which on it is not held
+CORRELATED = 0.3  # correlation of neighbouring residuals above which the model does not hold,
+MISFIT = 1.2  # if their root mean square, in units of the noise, is larger than this
 
 
 def fit(
@@ -59,3 +61,17 @@ def unit(jacobian: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     lengths = np.linalg.norm(jacobian, axis=0)
     lengths[lengths == 0.0] = 1.0
     return jacobian / lengths, lengths
+
+
+def neighbours(parts: Sequence[np.ndarray]) -> float:
+    """Correlation of neighbouring residuals within one or several series, each (n,), in order."""
+    centred = [part - part.mean() for part in parts]
+    return float(sum(np.sum(p[1:] * p[:-1]) for p in centred) / max(sum(np.sum(p * p) for p in centred), 1e-300))
+
+
+def correlated(neighbours: float, misfit: float = np.inf) -> str:
+    """Returns words on residuals whose neighbours correlate too much for the model to hold; empty if they do not, or if
+    their root mean square, in units of the noise, is that of the noise."""
+    if not (neighbours > CORRELATED and misfit > MISFIT):
+        return ""
+    return f"neighbouring residuals correlate by {neighbours:.2g}"

@@ -44,6 +44,18 @@ class Loop:
         d, q = self.displacement, self.force
         return float(abs(0.5 * np.sum(d * np.roll(q, -1) - np.roll(d, -1) * q)))
 
+    @property
+    def energy_sd(self) -> float:
+        """Its standard deviation by the noise of all points, J.
+
+        The area is linear in each point, with the distance of its two neighbours as the factor. Measured distances are
+        too large by noise, and its products with the noise of the others count half of that.
+        """
+        d, q = (np.roll(one, -1) - np.roll(one, 1) for one in (self.displacement, self.force))
+        of_d, of_q = self.noise()
+        square = 0.25 * (np.sum(d**2) * of_q**2 + np.sum(q**2) * of_d**2) - 0.5 * len(d) * (of_d * of_q) ** 2
+        return float(np.sqrt(max(square, 0.0)))
+
     def noise(self) -> tuple[float, float]:
         """Noise of displacement and force, from second differences.
 

@@ -18,8 +18,6 @@ NEARBY = (0.94, 1.06, 1.15)
 LOSS = (0.0, 0.005)  # of a rig, if nothing is stated, and its standard deviation: clamped joints, load cells, lags
 LOADS = 0.5  # deviation of a factor of the scale at each of several loads, over that of the scale; bends: BENDS times
 SHAPE = 0.05  # standard deviation of the scale, if nothing is stated: 15 % of a ball's radius, or 8 % of its load
-CORRELATED = 0.3  # correlation of neighbouring residuals above which the model does not hold
-MISFIT = 1.2  # and root mean square of the residuals, in units of the noise, below which it does not matter
 LARGE = 3.0  # root mean square of the residuals, in units of the noise, beyond which the model does not hold
 DOUBTFUL = 0.03  # relative deviation of the friction above which its range is that of its profile
 VAGUE = 0.1  # and above which it is called not identifiable where no profile is made
@@ -29,9 +27,7 @@ WEAK = 0.5  # width of the range, relative to the friction, from which on it is 
 
 def _neighbours(problem, residuals):
     """Correlation of neighbouring residuals within the loops."""
-    sizes = np.cumsum([len(loop.force) for loop in problem.loops])
-    parts = [part - part.mean() for part in np.split(residuals, sizes)[:-1]]
-    return float(sum(np.sum(p[1:] * p[:-1]) for p in parts) / max(sum(np.sum(p * p) for p in parts), 1e-300))
+    return least.neighbours(np.split(residuals, np.cumsum([len(loop.force) for loop in problem.loops]))[:-1])
 
 
 def _profile(problem, best, variance):
@@ -149,7 +145,7 @@ def fit(
     neighbours = _neighbours(problem, best.fun)
     friction, friction_sd = of["friction"], float(sd["friction"])
     ends, state, at_least = (friction - 2 * friction_sd, friction + 2 * friction_sd), "known", np.nan
-    if neighbours > CORRELATED and square > MISFIT**2 or square > LARGE**2:
+    if least.correlated(neighbours, np.sqrt(square)) or square > LARGE**2:
         state = "rejected"
     elif not friction_sd <= (DOUBTFUL if profile else VAGUE) * friction or profile and problem.turning(best.x):
         ends, far = _profile(problem, best, variance) if profile else ((problem.least(), np.inf), {})

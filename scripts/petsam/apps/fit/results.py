@@ -6,7 +6,7 @@ from typing import Optional
 import numpy as np
 
 from ...core.errors import Error, counted
-from .loops import CORRELATED
+from . import least
 from .problem import HIGHEST, LOWEST
 from .push import Push, options_of
 from .series import Result
@@ -49,7 +49,7 @@ def lines(found: Result, push: Push) -> list[str]:
             "no numbers: the loops are clockwise: in partial slip either a record backwards or a force that lags"
             if any(one.turned for one in found.files) and not fit.gross
             else "no numbers: the loops are not those of this contact and a rig in series: "
-            + (f"neighbouring residuals correlate by {fit.neighbours:.2g}, " if fit.neighbours > CORRELATED else "")
+            + "".join(f"{text}, " for text in [least.correlated(fit.neighbours)] if text)
             + f"their mean is {fit.misfit:.3g} N",
             "next: a loop in gross slip at the end of the test; --lean if the force grows while it slides; --rig left "
             "out; a --shape of the worn surface",
@@ -64,8 +64,8 @@ def lines(found: Result, push: Push) -> list[str]:
     out.append(_friction_line(found))
     rig = found.rig_stiffness
     if np.isinf(rig) or fit.compliance < 2.0 * fit.compliance_sd:
-        least = 1.0 / (fit.compliance + 2.0 * fit.compliance_sd)
-        out.append(f"rig stiffness above {_micro(least)} N/um (95 %); contact's {_micro(found.contact_stiffness)} N/um")
+        low = 1.0 / (fit.compliance + 2.0 * fit.compliance_sd)
+        out.append(f"rig stiffness above {_micro(low)} N/um (95 %); contact's {_micro(found.contact_stiffness)} N/um")
     else:
         share = (1.0 / rig) / (1.0 / rig + 1.0 / found.contact_stiffness)
         given = f"+- {found.rig_stiffness_sd / 1e6:.2g} N/um" if found.rig_stiffness_sd > 0.0 else "N/um (given)"
@@ -80,8 +80,8 @@ def lines(found: Result, push: Push) -> list[str]:
         text = part if name in ("loss", "bend") else f"{value:.4g} +- {deviation:.2g}"
         out.append({"lean": f"lean {text} N/m", "loss": f"loss {text}", "scale": f"shape's compliance times {text}",
                     "bend": f"compliance by slip larger by {text}"}[name])  # fmt: skip
-    energy = found.energy
-    out.append(f"energy {energy[0]:.4g} J in the first cycle, {energy[-1]:.4g} J in the last")
+    first, last = (f"{found.energy[k]:.4g} +- {found.energy_sd[k]:.2g} J" for k in (0, -1))
+    out.append(f"energy {first} in the first cycle, {last} in the last")
     return out
 
 
@@ -167,7 +167,9 @@ def wear(found: Result, volume: float, band: float = 0.0, life: Optional[float] 
     smooth = np.polyval(np.polyfit(numbers, energy, 1), numbers) if len(numbers) > 2 else energy
     scatter = float(np.std(energy - smooth)) / np.sqrt(len(energy)) / float(np.mean(energy))
     alpha = volume / total
-    alpha_sd = alpha * np.hypot(band, scatter)
+    mean, own = float(np.mean(energy)), float(np.sqrt(np.sum(found.energy_noise**2))) / len(energy)
+    by_energy = np.hypot(max(scatter, own / mean), float(np.mean(found.energy_loss)) / mean)
+    alpha_sd = alpha * np.hypot(band, by_energy)
     mu = (
         np.average(np.array([f.friction for f in found.each]), weights=energy)
         if found.state == "changes"
@@ -207,8 +209,16 @@ def as_json(found: Result, worn: Optional[Wear] = None, body: str = "2") -> dict
         **{name: value for name, (value, _) in fit.more.items() if found.state != "rejected"},
         "units": "N, m, J, 1/Pa",
         "cycles": [
-            {"cycle": float(n), "friction": plain(f.friction), "friction_sd": plain(f.friction_sd), "energy": float(e)}
-            for n, f, e in zip(found.numbers, found.each or [fit] * len(found.numbers), found.energy)
+            {
+                "cycle": float(n),
+                "friction": plain(f.friction),
+                "friction_sd": plain(f.friction_sd),
+                "energy": float(e),
+                "energy_sd": float(sd),
+            }
+            for n, f, e, sd in zip(
+                found.numbers, found.each or [fit] * len(found.numbers), found.energy, found.energy_sd
+            )
         ],
     }
     if worn:

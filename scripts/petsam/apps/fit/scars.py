@@ -4,7 +4,8 @@ The depth of a scar depends on the product of coefficient and cycles only, where
 the surfaces slide: one wear simulation with outputs over its cycles is the whole family of scars. What is found is the
 member of the family, a shift along x, and height and tilt of the unworn surface. A profile that is deeper or shallower
 than all of the family is none of its members: another simulation begins from the volume, since k = V/(P s) of load P
-and path s, where the family has P s.
+and path s, where the family has P s. The error of the cells, steps and jumps of the family is part of the
+deviation: half of what a second, coarser family changes (families.py).
 
 Residuals of neighbouring points of a profile are not independent: with their correlation r, deviations are larger by
 sqrt((1 + r)/(1 - r)). Where they are correlated over most of the scar, its shape is not that of the family: of profiles
@@ -14,10 +15,9 @@ with roughness of 10 to 20 um in length 18 to 50 independent points were left, o
 from __future__ import annotations
 
 import os
-import warnings
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
-from typing import Optional, Union
+from dataclasses import dataclass, replace
+from typing import Any, Optional, Union
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -25,67 +25,23 @@ from numpy.typing import ArrayLike
 from ...core.brief import brief
 from ...core.errors import Error
 from . import least
+from .families import MOST, AtEdge, Family, family, with_second
+from .loop import FLOOR, noise_of
 from .push import options_of
 
-OF_BODIES = ("wear_coefficient1", "wear_coefficient2")
-OUTPUTS = 19  # scars of the family
-FEWEST = 4  # of them, where the scar reaches the edge of the grid
-LEAST, MOST = 0.05, 1.6  # their cycles relative to those of the test
 EDGE = 0.02  # of the depth: where a scar ends
 WIDENINGS = 6  # families at most, until one has the scar
-BEYOND = 30.0  # the most that the start of the next one changes by
+FAR = 2.0  # the volume over that of the family from which on that has no scar like the profile
+BEYOND = 1000.0  # the most that the start of the next one changes by, by the volume,
+SMALLER = 30.0  # and where the grid is too narrow for a first scar
 END = 0.01  # relative distance from the end of a range, within which a number is at it
 INDEPENDENT = 3.0  # independent points for each parameter, below which residuals are correlated over the scar
 MATTERS = 0.02  # misfit over depth, below which that does not matter
+BY_GRID = 0.5  # of what a second grid changes: of four shapes the errors were 0.1 to 0.4 of it
 HELD = 0.5  # deviation over the coefficient, above which that is not identifiable
+NONE = 3.0  # deviations of its volume, below which a profile without a coefficient has no scar
 RISES = 5.0  # times the noise of its ends by which a profile lies above the line through them, if it is no scar
 SIDES = 3  # points beyond the scar, on each side, that hold the height of the unworn surface
-
-
-@brief
-@dataclass(frozen=True)
-class Family:
-    """Scars of a body over the cycles.
-
-    Parameters
-    ----------
-    x : ndarray
-        (nx,), m.
-    depth : ndarray
-        (outputs, nx), m.
-    product : ndarray
-        (outputs,), coefficient times cycles, 1/Pa.
-    life : float
-        Cycles of the test.
-    body : str
-    """
-
-    x: np.ndarray
-    depth: np.ndarray
-    product: np.ndarray
-    life: float
-    body: str
-
-    def at(self, product: float, x: ArrayLike) -> np.ndarray:
-        """Depth, linear between the outputs over the logarithm of the product.
-
-        Parameters
-        ----------
-        product : float
-            Coefficient of wear times cycles, 1/Pa.
-        x : array_like
-            (n,), m.
-
-        Returns
-        -------
-        ndarray
-            (n,), m.
-        """
-        place = np.interp(np.log(product), np.log(self.product), np.arange(len(self.product)))
-        k = min(int(place), len(self.product) - 2)
-        part = place - k
-        line = (1.0 - part) * self.depth[k] + part * self.depth[k + 1]
-        return np.interp(x, self.x, line, left=0.0, right=0.0)
 
 
 @brief
@@ -96,7 +52,8 @@ class Scar:
     Attributes
     ----------
     coefficient, coefficient_sd : float
-        Archard's, of the body, 1/Pa; NaN where the profile does not hold it.
+        Archard's, of the body, 1/Pa; NaN where the profile does not hold it. The deviation has the noise of the profile
+        and the error of the grid.
     shift, offset, tilt : float
         m, m, 1.
     misfit : float
@@ -109,6 +66,10 @@ class Scar:
         1 of a profile that is deeper than all scars of the family, -1 of one that is shallower, else 0.
     doubt : str
         Why there is no coefficient, and what to do; empty if there is one.
+    by_noise, by_grid : float
+        Parts of the deviation, relative to the coefficient; by_grid is NaN where the family has no second grid.
+    warning : str
+        What makes the coefficient and its deviation doubtful; empty if nothing does.
     """
 
     coefficient: float
@@ -123,90 +84,38 @@ class Scar:
     curve: np.ndarray
     end: int = 0
     doubt: str = ""
+    by_noise: float = np.nan
+    by_grid: float = np.nan
+    warning: str = ""
 
 
-class _AtEdge(Error):
-    """A scar that reaches the edge of the grid too early."""
+@dataclass(frozen=True)
+class _Best:
+    """The best of a family's scars: scipy's result, its bounds and curve, and its residuals, m."""
 
+    found: Any
+    low: np.ndarray
+    high: np.ndarray
+    curve: np.ndarray
+    depth: np.ndarray
+    residuals: np.ndarray
 
-def family(
-    shape: Union[str, os.PathLike],
-    life: float,
-    body: str = "2",
-    options: Optional[Mapping] = None,
-    start: Optional[float] = None,
-) -> Family:
-    """The scars of a body by one wear simulation.
+    @property
+    def end(self):
+        """1 at the deepest scar, -1 at the shallowest, else 0."""
+        return int(self.found.x[0] > self.high[0] - END) - int(self.found.x[0] < self.low[0] + END)
 
-    Parameters
-    ----------
-    shape : path
-        Options of petsam with the load, friction, -history of a cycle and -wear_coefficient1 and -wear_coefficient2:
-        their ratio is kept, and the body's own is the start.
-    life : float
-        Cycles of the test.
-    body : str
-        "1" or "2".
-    options : mapping, optional
-        Further options of petsam.
-    start : float, optional
-        Instead of the body's own coefficient, 1/Pa; the other one's changes alike.
-
-    Returns
-    -------
-    Family
-
-    Raises
-    ------
-    Error
-        If the body does not wear, the contact is no row of cells, or petsam cannot simulate the wear.
-    """
-    from ...contact.running import run
-
-    given = {**{name: value or True for name, value in options_of(shape).items()}, **(options or {})}
-    name = f"wear_coefficient{body}"
-    if not float(given.get(name, 0.0)) > 0.0:
-        raise Error(f"{shape}: -{name} is missing: a value from which the fit begins")
-    if not str(given.get("elasticity", "")).startswith("plane"):
-        raise Error(f"{shape}: profiles are of contacts in plane strain: -elasticity plane")
-    factor = start / float(given[name]) if start else 1.0
-    given.update({one: factor * float(given[one]) for one in OF_BODIES if one in given})
-    parts = np.unique(np.round(life * np.geomspace(LEAST, MOST, OUTPUTS)))
-    given.update(wear_cycles=parts[-1], wear_output=parts[:-1].tolist(), output_every=10**6)
-    given.pop("output", None)
-    results, whole = _simulated(run, given)
-    with results:
-        depth = [results.field(f"wear_depth{body}", k).reshape(-1) for k in range(len(results.steps))]
-        x = np.asarray(results.x)
-    if not whole:  # the last one is that of the step at the edge
-        depth = depth[:-1]
-        parts = parts[: len(depth)]
-    if len(depth) != len(parts) or len(parts) < FEWEST:
-        ended = f"{shape}: the simulation ended after {len(depth)} of {OUTPUTS} outputs"
-        raise Error(ended) if whole else _AtEdge(f"{ended}, at the edge of the grid: give a wider -grid_size")
-    return Family(x, np.array(depth), float(given[name]) * parts, life, body)
-
-
-def _simulated(run, given):
-    """Results of a wear simulation, and whether it has reached its end; else the scar has reached the grid's edge."""
-    from ...contact.errors import EdgeContact
-
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
-        try:
-            return run(given), True
-        except EdgeContact as error:
-            if error.results is None:
-                raise _AtEdge(f"{error}") from error
-            return error.results, False
+    @property
+    def beside(self):
+        """True if place, height or tilt are at the end of their range."""
+        return bool(np.any((self.found.x > self.high - END)[1:] | (self.found.x < self.low + END)[1:]))
 
 
 def _correlation(residuals, count):
     """Correlation of neighbours, without what a fit of so many parameters takes of it: of white noise it leaves
     -count/n, of correlated noise (measured on twins) 1.5 count/n of r more."""
-    centred, part = residuals - residuals.mean(), count / len(residuals)
-    raw = float(np.sum(centred[1:] * centred[:-1]) / max(np.sum(centred**2), 1e-300))
-    return min(0.99, (raw + part) / (1.0 - 1.5 * part))
+    part = count / len(residuals)
+    return min(0.99, (least.neighbours([residuals]) + part) / (1.0 - 1.5 * part))
 
 
 def fit_scar(one: Family, x: ArrayLike, height: ArrayLike, tilt: bool = True, level: bool = True) -> Scar:
@@ -231,10 +140,33 @@ def fit_scar(one: Family, x: ArrayLike, height: ArrayLike, tilt: bool = True, le
         rises where the scar should be.
     """
     x, height = _sound(x, height, level)
-    scale = float(np.ptp(height))
-    width = float(np.ptp(one.x))
-    middle = float(np.mean(x))
+    best = _best(one, x, height, tilt, level)
+    worn = np.flatnonzero(best.depth > EDGE * best.depth.max())
+    if not best.end and level and (worn.size < SIDES or worn[0] < SIDES or worn[-1] > len(x) - 1 - SIDES):
+        raise Error(
+            "the profile has no unworn surface on both sides of the scar: depth and height of it are one number"
+        )
+    scale, width, found = float(np.ptp(height)), float(np.ptp(one.x)), best.found.x
+    neighbours = _correlation(best.residuals, len(found))
+    noise = _by_noise(best, neighbours)
+    second = _best(one.second, x, height, tilt, level) if one.second else None
+    grid = BY_GRID * float(abs(found[0] - second.found.x[0])) if second else np.nan
+    relative = float(np.hypot(noise, np.nan_to_num(grid)))
+    doubt = _doubt(one, best, x, height, level, noise, grid)
+    warning = "" if doubt else _warning(best, second, neighbours, FLOOR * scale)
+    coefficient = float("nan") if doubt else float(np.exp(found[0])) / one.life
+    return Scar(
+        coefficient, coefficient * relative, float(found[1] * width), float(found[2] * scale) if level else 0.0,
+        float(found[3] * scale / width) if len(found) == 4 else 0.0, float(np.sqrt(np.mean(best.residuals**2))),
+        neighbours, x, height, best.curve, best.end, doubt, noise, grid, warning,
+    )  # fmt: skip
+
+
+def _best(one, x, height, tilt, level):
+    """The best of the scars of a family for a profile."""
+    scale, width, middle = float(np.ptp(height)), float(np.ptp(one.x)), float(np.mean(x))
     product, place = _begin(one, x, height, level)
+    count = 2 + level + (level and tilt)
 
     def curve(values):
         line = values[2] * scale if level else 0.0
@@ -242,36 +174,37 @@ def fit_scar(one: Family, x: ArrayLike, height: ArrayLike, tilt: bool = True, le
             line = line + values[3] * scale / width * (x - middle)
         return line - one.at(np.exp(values[0]), x - values[1] * width)
 
-    count = 2 + level + (level and tilt)
     low = np.array([np.log(one.product[0]), place / width - 0.5, -5.0, -5.0][:count])
     high = np.array([np.log(one.product[-1]), place / width + 0.5, 5.0, 5.0][:count])
     firsts = (0.3 * one.product[-1] / MOST, one.product[-1] / MOST, product)
     starts = ([np.log(first), place / width, np.median(height) / scale, 0.0][:count] for first in firsts)
-    best = least.fit(
+    found = least.fit(
         lambda values: (curve(values) - height) / scale,
         (np.clip(start, low + 1e-6, high - 1e-6) for start in starts),
         bounds=(low, high),
     )
-    residuals = height - curve(best.x)
-    depth = one.at(np.exp(best.x[0]), x - best.x[1] * width)
-    end = int(best.x[0] > high[0] - END) - int(best.x[0] < low[0] + END)
-    worn = np.flatnonzero(depth > EDGE * depth.max())
-    if not end and level and (worn.size < SIDES or worn[0] < SIDES or worn[-1] > len(x) - 1 - SIDES):
-        raise Error(
-            "the profile has no unworn surface on both sides of the scar: depth and height of it are one number"
-        )
-    neighbours = _correlation(residuals, count)
-    variance = 2.0 * best.cost / max(1, len(x) - len(best.x))
-    widened = np.sqrt((1.0 + max(neighbours, 0.0)) / (1.0 - min(neighbours, 0.99)))
-    relative = float(np.sqrt(variance) * least.bands(best.jac).sd[0] * widened)
-    beside = np.any((best.x[1:] > high[1:] - END) | (best.x[1:] < low[1:] + END))
-    doubt = _doubt(one, end, beside, residuals, count, float(depth.max()), relative)
-    coefficient = float("nan") if doubt else float(np.exp(best.x[0])) / one.life
-    return Scar(
-        coefficient, coefficient * relative, float(best.x[1] * width),
-        float(best.x[2] * scale) if level else 0.0, float(best.x[3] * scale / width) if count == 4 else 0.0,
-        float(np.sqrt(np.mean(residuals**2))), neighbours, x, height, curve(best.x), end, doubt,
-    )  # fmt: skip
+    depth, fitted = one.at(np.exp(found.x[0]), x - found.x[1] * width), curve(found.x)
+    return _Best(found, low, high, fitted, depth, height - fitted)
+
+
+def _by_noise(best, neighbours):
+    """Deviation of the coefficient over it by the noise of the profile, of which fewer points than all are independent:
+    by the correlation of neighbours, or by that of all points, whichever leaves fewer."""
+    count = len(best.residuals)
+    variance = 2.0 * best.found.cost / max(1, count - len(best.found.x))
+    widened = (1.0 + max(neighbours, 0.0)) / (1.0 - min(neighbours, 0.99))
+    return float(np.sqrt(variance * max(widened, count / _points(best.residuals))) * least.bands(best.found.jac).sd[0])
+
+
+def _warning(best, second, neighbours, floor):
+    """Warning of residuals that are neither white noise nor the error of the grid; else empty."""
+    misfit = float(np.sqrt(np.mean(best.residuals**2)))
+    by_grid = float(np.sqrt(np.mean((best.curve - second.curve) ** 2))) if second else 0.0
+    correlated = least.correlated(neighbours, misfit / np.hypot(max(noise_of(best.residuals), floor), by_grid))
+    return correlated and (
+        f"{correlated}: the model does not describe the profile, which is {1e6 * misfit:.3g} um off, and not by white "
+        "noise; the deviation has no error of the model: look at radii, load, stroke and --split, and leave out debris"
+    )
 
 
 def _line(x, height, level):
@@ -320,28 +253,43 @@ def _points(residuals):
     return count / float(1.0 + 2.0 * np.sum(correlation[1:last]))
 
 
-def _doubt(one, end, beside, residuals, count, depth, relative):
+def _doubt(one, best, x, height, level, noise, grid):
     """Why the profile does not hold the coefficient, and what to do; empty if it does."""
-    least, most = (one.product[k] / one.life for k in (0, -1))
-    if end > 0 and len(one.product) < OUTPUTS:
-        return f"it is deeper than the deepest scar on the grid, of {most:.3g} 1/Pa: give a wider -grid_size"
+    low, high = (one.product[k] / one.life for k in (0, -1))
+    count, depth, end = len(best.found.x), float(best.depth.max()), best.end
+    if (end < 0 or noise > HELD) and _flat(x, height, level):
+        return (
+            f"it has no scar: the volume below the line through its ends is that of noise of "
+            f"{1e6 * noise_of(height):.2g} um: measure where the contact was, or after more cycles"
+        )
+    if end > 0 and not one.whole:
+        return f"it is deeper than the deepest scar on the grid, of {high:.3g} 1/Pa: give a wider -grid_size"
     if end:
         return (
-            f"it is {'deeper' if end > 0 else 'shallower'} than all scars from {least:.3g} to {most:.3g} 1/Pa: give a "
+            f"it is {'deeper' if end > 0 else 'shallower'} than all scars from {low:.3g} to {high:.3g} 1/Pa: give a "
             f"{'larger' if end > 0 else 'smaller'} -wear_coefficient{one.body}, and look at units, heights and cycles"
         )
-    if beside:
+    if best.beside:
         return "its place, height or tilt is not found: give a profile with one scar, and its unworn surface level"
-    points = _points(residuals)
-    if points < INDEPENDENT * count and np.sqrt(np.mean(residuals**2)) > MATTERS * depth:
+    points = _points(best.residuals)
+    if points < INDEPENDENT * count and np.sqrt(np.mean(best.residuals**2)) > MATTERS * depth:
         return (
             f"its shape is not that of the contact's scar: residuals are correlated over most of it ({points:.2g} "
             f"independent points for {count} parameters): look at radii, load, stroke and the ratio of both "
             "coefficients (--split), and leave out debris"
         )
-    if relative > HELD:
-        return f"its noise leaves a deviation of {100 * relative:.2g} %: average several profiles"
+    if noise > HELD:
+        return f"its noise leaves a deviation of {100 * noise:.2g} %: average several profiles"
+    if grid > HELD:
+        return f"the error of the grid is {100 * grid:.2g} %: give a larger -grid_n"
     return ""
+
+
+def _flat(x, height, level):
+    """True if the volume of a profile below the line through its ends is that of its noise."""
+    line, outer = _line(x, height, level)
+    deviation = noise_of(height) * np.ptp(x) * np.sqrt(1.0 / len(x) + (0.5 / outer if level else 0.0))
+    return bool(np.trapezoid(line - height, x) < NONE * deviation)
 
 
 def fit_profile(
@@ -375,24 +323,53 @@ def fit_profile(
         See family() and fit_scar().
     """
     start, (x, height) = None, _sound(x, height, True)
-    left = WIDENINGS
-    while True:
-        left -= 1
+    small, large = 0.0, np.inf  # starts whose scars are too shallow, and too deep
+    for left in range(WIDENINGS - 1, -1, -1):
         try:
             used = one or family(shape, life, body, options, start)
-        except _AtEdge:
-            own = start or float(options_of(shape)[f"wear_coefficient{body}"])
+        except AtEdge:
             if not left:
                 raise
-            start = own / BEYOND
+            large = start or float(options_of(shape)[f"wear_coefficient{body}"])
+            start = _between(small, large / SMALLER, large)
             continue
-        scar = fit_scar(used, x, height)
-        if not left or not scar.end or scar.end > 0 and len(used.product) < OUTPUTS:
-            return scar, used
-        own = used.product[0] / (LEAST * life)
-        part = _begin(used, scar.x, scar.height, True)[0] / life / own
-        start = own * float(np.clip(part, *((2.0, BEYOND) if scar.end > 0 else (1.0 / BEYOND, 0.25))))
-        one = None
+        product = _begin(used, x, height, True)[0]
+        way = _way(used, x, height, product)
+        if not left or not way or way > 0 and not used.whole:
+            scar = fit_scar(used, x, height)
+            way = 0 if _lost(used, x, height) else scar.end
+            if not left or not way or way > 0 and not used.whole:
+                break
+        small, large = (used.start, large) if way > 0 else (small, used.start)
+        part = product / life / used.start
+        part = float(np.clip(part, *((2.0, BEYOND) if way > 0 else (1.0 / BEYOND, 0.25))))
+        start, one = _between(small, part * used.start, large), None
+    if used.second or scar.doubt:
+        return scar, used
+    used = with_second(used, shape, options)
+    scar = fit_scar(used, x, height)
+    if not used.second:
+        unknown = "the deviation has no error of the grid, since half its cells have no solution: give a larger -grid_n"
+        scar = replace(scar, warning="; ".join(one for one in (scar.warning, unknown) if one))
+    return scar, used
+
+
+def _between(small, start, large):
+    """A start, or the middle of the two that it should be between."""
+    return start if small < start < large else float(np.sqrt(small * large))
+
+
+def _way(one, x, height, product):
+    """Where the volume of a profile is: 1 far beyond the deepest scar, -1 far below the shallowest, else 0. Far from
+    the profile all scars of a family are equally bad, and the best of them tells nothing."""
+    if _lost(one, x, height):
+        return 0
+    return int(product > FAR * one.product[-1]) - int(product < one.product[0] / FAR)
+
+
+def _lost(one, x, height):
+    """True if a profile is no deeper than its noise, and the family has scars that are lost in it."""
+    return bool(one.depth[0].max() < noise_of(height)) and _flat(x, height, True)
 
 
 @brief
@@ -453,23 +430,37 @@ def split(
     other = "wear_coefficient" + ("1" if body == "2" else "2")
     tried = list(ratios)
     found: list[Scar] = []
+    second: list[float] = []  # misfits on the second grid
     while len(found) < len(tried):
-        found.append(fit_profile(shape, life, x, height, body, {other: tried[len(found)] * own})[0])
+        scar, one = fit_profile(shape, life, x, height, body, {other: tried[len(found)] * own})
+        found.append(scar)
+        if one.second:
+            residuals = _best(one.second, scar.x, scar.height, True, True).residuals
+            second.append(float(np.sqrt(np.mean(residuals**2))))
         misfits = np.array([scar.misfit for scar in found])
         if len(found) == len(tried) and misfits.argmin() == len(tried) - 1 and tried[-1] < MOST_RATIO:
             tried.append(GROWS * tried[-1])
-    k = int(np.clip(np.argmin(misfits), 1, len(misfits) - 2))
-    curve = np.polyfit(tried[k - 1 : k + 2], misfits[k - 1 : k + 2] ** 2, 2)  # of the mean square
     scar = found[int(np.argmin(misfits))]
-    best = float(-curve[1] / (2.0 * curve[0])) if curve[0] > 0.0 else np.nan
-    least = float(np.polyval(curve, best))
-    points = len(scar.x) * (1.0 - min(scar.neighbours, 0.99)) / (1.0 + max(scar.neighbours, 0.0))
-    points = max(1.0, points - 4.0)  # independent ones, less those that the fit takes
-    deviation = float(np.sqrt(max(least, 0.0) / (points * curve[0]))) if curve[0] > 0.0 else np.nan
+    best, deviation = _lowest(tried, misfits, scar)
+    if len(second) == len(found):
+        deviation = float(np.hypot(deviation, BY_GRID * (best - _lowest(tried, np.array(second), scar)[0])))
     doubt = _doubt_of_ratio(best, deviation, tried, scar)
     if doubt:
         best = deviation = np.nan
     return Split(best, deviation, np.array(tried), misfits, scar, doubt)
+
+
+def _lowest(tried, misfits, scar):
+    """The ratio of least misfit by the parabola of the mean square about it, and its deviation by the noise; NaN where
+    there is none."""
+    k = int(np.clip(np.argmin(misfits), 1, len(misfits) - 2))
+    curve = np.polyfit(tried[k - 1 : k + 2], misfits[k - 1 : k + 2] ** 2, 2)
+    if not curve[0] > 0.0:
+        return np.nan, np.nan
+    best = float(-curve[1] / (2.0 * curve[0]))
+    points = len(scar.x) * (1.0 - min(scar.neighbours, 0.99)) / (1.0 + max(scar.neighbours, 0.0))
+    points = max(1.0, points - 4.0)  # independent ones, less those that the fit takes
+    return best, float(np.sqrt(max(float(np.polyval(curve, best)), 0.0) / (points * curve[0])))
 
 
 def _doubt_of_ratio(best, deviation, ratios, scar):

@@ -49,6 +49,9 @@ class Result(Tabled):
         Of each cycle; empty of one cycle.
     numbers, energy : ndarray
         Of each cycle, its number and its dissipated energy, J, without the rig's loss.
+    energy_noise, energy_loss : ndarray
+        Standard deviations of the energy, J: by the noise of the points, and by that of the rig's loss, whose error all
+        cycles share.
     notes : list of str
         Of the fit; the files have theirs.
     """
@@ -68,10 +71,22 @@ class Result(Tabled):
     each: Sequence[Fit]
     numbers: np.ndarray
     energy: np.ndarray
+    energy_noise: np.ndarray
+    energy_loss: np.ndarray
     notes: Sequence[str] = ()
 
+    @property
+    def energy_sd(self) -> np.ndarray:
+        """Standard deviation of the energy of each cycle, J.
+
+        Returns
+        -------
+        ndarray
+        """
+        return np.hypot(self.energy_noise, self.energy_loss)
+
     def table(self) -> list:
-        """The columns: cycle, friction, its deviation, the rig's compliance, its deviation, energy.
+        """The columns: cycle, friction, its deviation, the rig's compliance, its deviation, energy, its deviation.
 
         Returns
         -------
@@ -85,6 +100,7 @@ class Result(Tabled):
             Column("compliance", "m/N", "of the rig", [f.compliance for f in each]),
             Column("compliance_sd", "m/N", "its standard deviation", [f.compliance_sd for f in each]),
             Column("energy", "J", "dissipated energy, of the contact alone", self.energy.tolist()),
+            Column("energy_sd", "J", "its standard deviation", self.energy_sd.tolist()),
         ]
 
 
@@ -178,15 +194,18 @@ def analyse(files: Sequence[Cycles], pushes: Sequence[Push], free: Sequence[str]
         elif state != "rejected":
             found = (found[0], max(found[1], deviation))
     identifiable = state in ("known", "weak", "changes")
-    loss = _loss(together, fixed)
-    energy = np.array([_contact_energy(loop, loss) for one in files for loop in one.loops])
+    loss, loss_sd = _loss(together, fixed)
+    loops = [loop for one in files for loop in one.loops]
+    lost = np.array([_rig_energy(loop) for loop in loops])
+    energy = np.array([loop.energy for loop in loops]) - loss * lost
+    noise = np.array([loop.energy_sd for loop in loops])
     rig = _rig(each, together, state)
     return Result(
         friction=found[0] if identifiable else np.nan, friction_sd=found[1] if identifiable else np.nan,
         friction_at_least=together.friction_at_least, identifiable=identifiable, state=state,
         regime="gross slip" if together.gross and identifiable else "partial slip", sliding=together.sliding,
         rig_stiffness=rig[0], rig_stiffness_sd=rig[1], contact_stiffness=pushes[0].stiffness, fit=together, files=files,
-        each=each, numbers=numbers, energy=energy, notes=notes,
+        each=each, numbers=numbers, energy=energy, energy_noise=noise, energy_loss=loss_sd * lost, notes=notes,
     )  # fmt: skip
 
 
@@ -196,10 +215,11 @@ def _value(given):
 
 
 def _loss(together, fixed):
-    """The loss of the rig, to be subtracted from energies."""
+    """The loss of the rig, to be subtracted from energies, and its standard deviation."""
     if "loss" in together.more and together.state in ("known", "weak", "changes"):
-        return together.more["loss"][0]
-    return _value(fixed.get("loss", LOSS))
+        return together.more["loss"]
+    given = fixed.get("loss")
+    return given if isinstance(given, tuple) else LOSS if given is None else (given, 0.0)
 
 
 def _within(each):
@@ -221,7 +241,6 @@ def _rig(each, together, state):
     return (1.0 / mean, deviation / mean**2) if mean > 0.0 else (np.inf, np.nan)
 
 
-def _contact_energy(loop, loss):
-    """Energy of a loop without that of the rig's loss, J."""
-    half_d, half_q = 0.5 * np.ptp(loop.displacement), 0.5 * np.ptp(loop.force)
-    return loop.energy - np.pi * loss * half_q * half_d
+def _rig_energy(loop):
+    """Energy that a loss of 1 of the rig takes of a loop, J."""
+    return np.pi * 0.5 * np.ptp(loop.displacement) * 0.5 * np.ptp(loop.force)
