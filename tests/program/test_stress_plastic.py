@@ -191,8 +191,13 @@ def test_what_is_not_known_is_refused(stress):
         ("stresses_of", "plastic,plastic", "names plastic twice"),
         ("plastic_layers", None, "lacks the attribute plastic_layers"),
         ("plastic_layers", [12.0, 0.0, 1.0], "body 2 yields"),
-        ("plastic_layers", [0.0, 12.5, 1.0], "plastic_layers is damaged"),
-        ("plastic_layers", [0.0, 12.0, np.nan], "plastic_layers is damaged"),
+        (
+            "plastic_layers",
+            [0.0, 12.5, 1.0],
+            "number 1 of plastic_layers is 12.5: expected a whole number from 0 to 1000000",
+        ),
+        ("plastic_layers", [0.0, 12.0, np.nan], "number 2 of plastic_layers is nan"),
+        ("plastic_layers", [0.0, 12.0, 2.0], "plastic_layers is damaged: its last number is 2, expected 0 or 1"),
         ("plastic_layers", [0.0, 12.0], "plastic_layers is not what petsam writes"),
     ],
 )

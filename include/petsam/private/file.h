@@ -93,7 +93,7 @@ typedef struct {
 } SamLabel;
 
 /* The shape of a dataset: size when created, largest size, and size of a chunk (0: not chunked) */
-#define SAM_SHAPE_RANK 4 /* most dimensions */
+#define SAM_SHAPE_RANK 6 /* most dimensions */
 typedef struct {
   int           rank;
   hsize_t       size[SAM_SHAPE_RANK], largest[SAM_SHAPE_RANK], chunk[SAM_SHAPE_RANK];
@@ -110,11 +110,8 @@ PETSC_INTERN hid_t SamFileCreateDataset(SamFile file, hid_t where, const SamLabe
 PETSC_INTERN hid_t SamFileCreateScale(SamFile file, hid_t where, const SamLabel *label, const char axis[],
                                       const char standard_name[], const SamShape *shape, const double values[]);
 PETSC_INTERN void  SamFileAttachScales(SamFile file, hid_t dataset, int count, const hid_t scales[]);
-/*
-  SamFileGetSize - gets the size of a dataset with that number of dimensions (0: any; `size` then has SAM_SHAPE_RANK
-  elements); returns the number. All are zero after a failure.
-*/
-PETSC_INTERN int SamFileGetSize(SamFile file, hid_t dataset, int rank, hsize_t size[]);
+/* SamFileGetSize - gets the size of a dataset with that number of dimensions; all are zero after a failure. */
+PETSC_INTERN void SamFileGetSize(SamFile file, hid_t dataset, int rank, hsize_t size[]);
 
 /* The part of a dataset that a rank writes or reads; it is empty if a count is 0 */
 typedef struct {
@@ -146,6 +143,59 @@ PETSC_INTERN PetscBool SamFileIsWhole(SamFile file, hid_t dataset, const hsize_t
   Not collective.
 */
 PETSC_INTERN PetscBool SamTextRead(hid_t object, const char name[], char text[], size_t size);
+
+/*
+  SamAttributeClass - returns the class of an attribute's values, H5T_NO_CLASS if there is none, and gets their number.
+  Not collective.
+*/
+PETSC_INTERN H5T_class_t SamAttributeClass(hid_t object, const char name[], hssize_t *count);
+
+/* ---- expectations (expect.c); on one rank, for a file that is examined ---- */
+
+/*
+  SamFileCheck - raises SAM_ERR_FILE unless a condition holds; the text, a format with its values, describes the fault.
+  Collective on the communicator of the file.
+*/
+#define SamFileCheck(file, holds, ...) \
+  do { \
+    if (PetscUnlikely(!(holds))) PetscCall(SamFileRefuse(file, __VA_ARGS__)); \
+  } while (0)
+PETSC_INTERN PetscErrorCode SamFileRefuse(SamFile file, const char format[], ...) PETSC_ATTRIBUTE_FORMAT(2, 3);
+
+/* The kind of a file in messages, and the program that writes it */
+typedef struct {
+  const char *name, *writer;
+} SamFileKind;
+
+/*
+  SamExpected - an attribute of the root group, or a dataset, that a reader expects: its name; its number of dimensions,
+  or that it is an attribute with numbers, or with a text; its size in each dimension, for an attribute the number of
+  its numbers, for a text of its bytes in memory; where its numbers (double) or its text go, NULL for a dataset that is
+  examined only. SamFileExpect() replaces the sizes of a dataset by those found.
+*/
+typedef struct {
+  const char *name;
+  int         rank;
+  hsize_t     size[SAM_SHAPE_RANK]; /* SAM_ANY: from 1 to `longest` */
+  void       *values;
+  SamRange    range; /* of the numbers; whole ones are positive, or from 0 */
+  double      most;  /* not 0: they are whole numbers, the largest of this value */
+  hsize_t     longest;
+  int         free;     /* any numbers, also NaN */
+  int         grows;    /* the first dimension may be longer; then only its first places must have been written */
+  int         optional; /* it may be missing; a text always may */
+  PetscBool   found;    /* result */
+} SamExpected;
+#define SAM_ATTRIBUTE   (-1)
+#define SAM_TEXT        (-2) /* becomes empty if it is missing or too long */
+#define SAM_ANY         ((hsize_t)-1)
+#define SAM_EXPECT_NAME 128 /* characters of a dataset's name */
+/*
+  SamFileExpect - examines the rows, and reads them; `group` precedes the names of datasets. Errors: SAM_ERR_FILE for
+  one that is missing, is of another kind or shape, is not in the file as a whole, or has numbers out of range.
+*/
+PETSC_INTERN PetscErrorCode SamFileExpect(SamFile file, const SamFileKind *kind, const char group[], PetscInt count,
+                                          SamExpected rows[]);
 
 /* ---- parameters and images (attributes.c, vtkhdf.c) ---- */
 

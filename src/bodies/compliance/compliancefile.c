@@ -9,7 +9,6 @@
 #include <math.h>
 #include <string.h>
 
-#define RANK    6      /* maximum number of dimensions */
 #define RIGID   6      /* motions of a body as a whole */
 #define POINTS  100000 /* maximum number of points of a load case */
 #define REST    1e-2   /* largest deviation of the polynomials from a load case, relative to its range */
@@ -18,40 +17,7 @@
 #define SECTION 2      /* version of the files of sections in plane strain */
 #define SOFT    10000  /* times the half-space's compliance: errors of pressures then exceed the tolerance */
 
-/* `size` 0 in a dimension: any number up to `most`; it is replaced by that number. */
-typedef struct {
-  int     rank;
-  hsize_t size[RANK], most;
-} Shape;
-
-/* Reads a dataset of finite numbers. */
-static PetscErrorCode ReadDataset(SamFile f, const char name[], Shape *shape, double values[])
-{
-  const hid_t dataset = H5Dopen2(f->id, name, H5P_DEFAULT), space = dataset >= 0 ? H5Dget_space(dataset) : -1;
-  const int   rank        = space >= 0 ? H5Sget_simple_extent_ndims(space) : -1;
-  hsize_t     found[RANK] = {0}, count = 1;
-  PetscBool   fits;
-
-  PetscFunctionBegin;
-  PetscCheck(dataset >= 0, f->comm, SAM_ERR_FILE, "-%s %s: has no dataset %s: make the file by petsam-compliance",
-             f->option, f->filename, name);
-  fits = rank == shape->rank && H5Sget_simple_extent_dims(space, found, NULL) == rank;
-  for (int d = 0; d < shape->rank && fits; d++) {
-    fits                    = shape->size[d] ? found[d] == shape->size[d] : found[d] > 0 && found[d] <= shape->most;
-    count *= shape->size[d] = found[d];
-  }
-  PetscCheck(fits, f->comm, SAM_ERR_FILE, "-%s %s: %s has a shape that does not fit the others: make the file anew",
-             f->option, f->filename, name);
-  PetscCheck(SamFileIsWhole(f, dataset, NULL, PETSC_TRUE) &&
-               H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) >= 0,
-             f->comm, SAM_ERR_FILE, "-%s %s: the numbers of %s cannot be read: the file is damaged", f->option,
-             f->filename, name);
-  for (hsize_t k = 0; k < count; k++)
-    PetscCheck(isfinite(values[k]), f->comm, SAM_ERR_FILE,
-               "-%s %s: number %lld of %s is not finite: make the file anew", f->option, f->filename, (long long)k,
-               name);
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
+static const SamFileKind kind = {"file", "petsam-compliance"};
 
 /* A patch of a file: its group, and which of the file's polynomials are read. */
 typedef struct {
@@ -65,28 +31,6 @@ typedef struct {
   struct _n_SamCompliance c;
   Choice                  from;
 } Reading;
-
-/* Reads a dataset of finite numbers of the patch. */
-static PetscErrorCode ReadNumbers(SamFile f, const Choice *from, const char own[], Shape *shape, double values[])
-{
-  char name[128];
-
-  PetscFunctionBegin;
-  (void)snprintf(name, sizeof(name), "%s%s", from->group, own);
-  PetscCall(ReadDataset(f, name, shape, values));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-static PetscErrorCode ReadAttribute(SamFile f, const char name[], double *value)
-{
-  const PetscBool found = SamFileHasAttribute(f, name);
-
-  PetscFunctionBegin;
-  if (found) SamFileReadAttribute(f, f->id, name, H5T_NATIVE_DOUBLE, 1, value);
-  PetscCheck(found && !f->failed && !isnan(*value), f->comm, SAM_ERR_FILE,
-             "-%s %s: the attribute %s is missing or no number: expected a file of petsam-compliance", f->option,
-             f->filename, name);
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
 
 /*
   Chooses the polynomials whose degree is at most the largest one less `lower`, but at least 1: kept[m] is the number
@@ -114,31 +58,28 @@ static void Keep(Choice *from, double power[][2])
 
 static PetscErrorCode ReadBasis(SamFile f, SamCompliance c, Choice *from)
 {
-  double power[SAM_COMPLIANCE_MODES][2];
-  Shape  pair = {1, {2}, 0}, table = {2, {0, 2}, SAM_COMPLIANCE_MODES};
+  double      power[SAM_COMPLIANCE_MODES][2];
+  SamExpected rows[] = {{"/patch/center", 1, {2}, .values = from->center},
+                        {"/patch/half", 1, {2}, .values = c->half, .range = SAM_RANGE_POSITIVE},
+                        {"/basis/degree_xy",
+                         2,
+                         {SAM_ANY, 2},
+                         .values  = power,
+                         .most    = SAM_COMPLIANCE_DEGREE,
+                         .longest = SAM_COMPLIANCE_MODES}};
 
   PetscFunctionBegin;
-  PetscCall(ReadNumbers(f, from, "/patch/center", &pair, from->center));
-  PetscCall(ReadNumbers(f, from, "/patch/half", &pair, c->half));
-  PetscCheck(c->half[0] > 0 && c->half[1] > 0, f->comm, SAM_ERR_FILE,
-             "-%s %s: /patch/half is %.6g, %.6g: expected lengths > 0", f->option, f->filename, c->half[0], c->half[1]);
-  PetscCheck(
-    (c->datum > 0 || PetscMax(c->half[0], c->half[1]) <= SLENDER * PetscMin(c->half[0], c->half[1])) &&
-      c->half[0] <= LARGE && PetscMax(PetscAbsReal(from->center[0]), PetscAbsReal(from->center[1])) <= LARGE,
-    f->comm, SAM_ERR_FILE,
-    "-%s %s: /patch/half is %.6g, %.6g, /patch/center %.6g, %.6g: expected at most %d m, and sides that differ "
-    "at most by a factor of %d: check the unit of the file",
-    f->option, f->filename, c->half[0], c->half[1], from->center[0], from->center[1], LARGE, SLENDER);
-  PetscCall(ReadNumbers(f, from, "/basis/degree_xy", &table, power[0]));
-  from->modes = (PetscInt)table.size[0];
-  for (PetscInt m = 0; m < from->modes; m++)
-    for (int d = 0; d < 2; d++)
-      PetscCheck(power[m][d] >= 0 && power[m][d] <= SAM_COMPLIANCE_DEGREE && power[m][d] == floor(power[m][d]), f->comm,
-                 SAM_ERR_FILE, "-%s %s: /basis/degree_xy has %.6g: expected whole numbers from 0 to %d", f->option,
-                 f->filename, power[m][d], SAM_COMPLIANCE_DEGREE);
+  PetscCall(SamFileExpect(f, &kind, from->group, SAM_OPTION_ROWS(rows)));
+  SamFileCheck(f,
+               (c->datum > 0 || PetscMax(c->half[0], c->half[1]) <= SLENDER * PetscMin(c->half[0], c->half[1])) &&
+                 c->half[0] <= LARGE && PetscMax(PetscAbsReal(from->center[0]), PetscAbsReal(from->center[1])) <= LARGE,
+               "/patch/half is %.6g, %.6g, /patch/center %.6g, %.6g: expected at most %d m, and sides that differ "
+               "at most by a factor of %d: check the unit of the file",
+               c->half[0], c->half[1], from->center[0], from->center[1], LARGE, SLENDER);
+  from->modes = (PetscInt)rows[2].size[0];
   for (PetscInt m = 0; m < from->modes && c->datum > 0; m++)
-    PetscCheck(!power[m][1] && from->center[1] == 0 && c->half[1] == 0.5, f->comm, SAM_ERR_FILE,
-               "-%s %s: is of a section, but varies along y: make the file anew", f->option, f->filename);
+    SamFileCheck(f, !power[m][1] && from->center[1] == 0 && c->half[1] == 0.5,
+                 "is of a section, but varies along y: make the file anew");
   Keep(from, power);
   c->modes = 0;
   for (PetscInt m = 0; m < from->modes; m++) {
@@ -156,15 +97,15 @@ static PetscErrorCode ReadBasis(SamFile f, SamCompliance c, Choice *from)
 /* Subtracts what body 1 as a whole moves by, Q b Q' with Q (6, modes, 3) and b (6, 6), from the compliance. */
 static PetscErrorCode SubtractRigid(SamFile f, const Choice *from, double all[])
 {
-  const PetscInt n       = 3 * from->modes;
-  Shape          square  = {2, {RIGID, RIGID}, 0};
-  Shape          columns = {3, {RIGID, (hsize_t)from->modes, 3}, 0};
+  const PetscInt n = 3 * from->modes;
   double         b[RIGID][RIGID], *q;
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(RIGID * n, &q));
-  PetscCall(ReadNumbers(f, from, "/rigid/compliance", &square, b[0]));
-  PetscCall(ReadNumbers(f, from, "/rigid/motions", &columns, q));
+  SamExpected rows[] = {{"/rigid/compliance", 2, {RIGID, RIGID}, .values = b},
+                        {"/rigid/motions", 3, {RIGID, (hsize_t)from->modes, 3}, .values = q}};
+
+  PetscCall(SamFileExpect(f, &kind, from->group, SAM_OPTION_ROWS(rows)));
   for (PetscInt r = 0; r < n; r++)
     for (PetscInt s = 0; s < n; s++) {
       double sum = 0;
@@ -182,12 +123,13 @@ static PetscErrorCode ReadMatrix(SamFile f, SamCompliance c, const Choice *from,
 {
   const hsize_t  m = (hsize_t)from->modes;
   const PetscInt n = 3 * from->modes, kept = 3 * c->modes;
-  Shape          shape = {4, {m, 3, m, 3}, 0};
+  SamExpected    whole = {"/compliance", 4, {m, 3, m, 3}, .values = NULL};
   double        *all;
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(n * n, &all));
-  PetscCall(ReadNumbers(f, from, "/compliance", &shape, all));
+  whole.values = all;
+  PetscCall(SamFileExpect(f, &kind, from->group, 1, &whole));
   if (from->local) PetscCall(SubtractRigid(f, from, all));
   for (PetscInt r = 0; r < n; r++)
     for (PetscInt s = 0; s < n; s++) {
@@ -203,7 +145,7 @@ static PetscErrorCode ReadMatrix(SamFile f, SamCompliance c, const Choice *from,
 /* Reads a load case given at points of the patch: x, y and field (points, 3), m. */
 static PetscErrorCode ReadPoints(SamFile f, SamCompliance c, const Choice *from, const char name[], double field[][3])
 {
-  Shape       line = {1, {0}, POINTS}, table;
+  SamExpected table, line = {"", 1, {SAM_ANY}, .longest = POINTS};
   char        path[64];
   double     *at[2], *values, rest = NAN;
   const char *axes[2] = {"x", "y"};
@@ -212,25 +154,27 @@ static PetscErrorCode ReadPoints(SamFile f, SamCompliance c, const Choice *from,
   PetscCall(PetscMalloc3(POINTS, &at[0], POINTS, &at[1], 3 * POINTS, &values));
   for (int d = 0; d < 2; d++) {
     (void)snprintf(path, sizeof(path), "/cases/%s/%s", name, axes[d]);
-    PetscCall(ReadNumbers(f, from, path, &line, at[d]));
+    line.name   = path;
+    line.values = at[d];
+    PetscCall(SamFileExpect(f, &kind, from->group, 1, &line));
     for (hsize_t k = 0; k < line.size[0]; k++)
-      PetscCheck(fabs(at[d][k] - c->center[d]) <= c->half[d] * (1 + 1e-9), f->comm, SAM_ERR_FILE,
-                 "-%s %s: %s has %.6g m, outside of the patch from %.6g to %.6g m: give points in the patch", f->option,
-                 f->filename, path, at[d][k], c->center[d] - c->half[d], c->center[d] + c->half[d]);
+      SamFileCheck(f, fabs(at[d][k] - c->center[d]) <= c->half[d] * (1 + 1e-9),
+                   "%s has %.6g m, outside of the patch from %.6g to %.6g m: give points in the patch", path, at[d][k],
+                   c->center[d] - c->half[d], c->center[d] + c->half[d]);
   }
-  table = (Shape){2, {line.size[0], 3}, 0};
   (void)snprintf(path, sizeof(path), "/cases/%s/field", name);
-  PetscCall(ReadNumbers(f, from, path, &table, values));
+  table = (SamExpected){path, 2, {line.size[0], 3}, .values = values};
+  PetscCall(SamFileExpect(f, &kind, from->group, 1, &table));
   if ((PetscInt)line.size[0] >= c->modes)
     PetscCall(SamComplianceFit(c, (PetscInt)line.size[0], (const double *const[]){at[0], at[1]}, values, field, &rest));
-  PetscCheck(!isnan(rest), f->comm, SAM_ERR_FILE,
-             "-%s %s: load case %s is given at %d points, which do not determine %" PetscInt_FMT
-             " polynomials: give more points, all over the patch",
-             f->option, f->filename, name, (int)line.size[0], c->modes);
-  PetscCheck(rest <= REST, f->comm, SAM_ERR_FILE,
-             "-%s %s: the displacement of load case %s differs from polynomials of degree %" PetscInt_FMT
-             " by %.2g of its range, limit %.6g: use a higher degree or a smaller patch",
-             f->option, f->filename, name, c->degree, rest, REST);
+  SamFileCheck(f, !isnan(rest),
+               "load case %s is given at %d points, which do not determine %" PetscInt_FMT
+               " polynomials: give more points, all over the patch",
+               name, (int)line.size[0], c->modes);
+  SamFileCheck(f, rest <= REST,
+               "the displacement of load case %s differs from polynomials of degree %" PetscInt_FMT
+               " by %.2g of its range, limit %.6g: use a higher degree or a smaller patch",
+               name, c->degree, rest, REST);
   PetscCall(PetscFree3(at[0], at[1], values));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -246,9 +190,8 @@ static PetscErrorCode ReadCases(SamFile f, SamCompliance c, const Choice *from)
   (void)snprintf(path, sizeof(path), "%s/cases", from->group);
   group = H5Lexists(f->id, path, H5P_DEFAULT) > 0 ? H5Gopen2(f->id, path, H5P_DEFAULT) : -1;
   if (group >= 0) (void)SamFileNote(f, H5Gget_info(group, &info));
-  PetscCheck(info.nlinks <= SAM_COMPLIANCE_CASES, f->comm, SAM_ERR_FILE,
-             "-%s %s: has %lld load cases: expected at most %d", f->option, f->filename, (long long)info.nlinks,
-             SAM_COMPLIANCE_CASES);
+  SamFileCheck(f, info.nlinks <= SAM_COMPLIANCE_CASES, "has %lld load cases: expected at most %d",
+               (long long)info.nlinks, SAM_COMPLIANCE_CASES);
   for (hsize_t k = 0; k < info.nlinks; k++) {
     char         *name = c->name[c->cases];
     const ssize_t size =
@@ -257,9 +200,8 @@ static PetscErrorCode ReadCases(SamFile f, SamCompliance c, const Choice *from)
 
     for (const char *letter = name; *letter && good; letter++)
       good = isalnum((unsigned char)*letter) || *letter == '_' ? PETSC_TRUE : PETSC_FALSE;
-    PetscCheck(good, f->comm, SAM_ERR_FILE,
-               "-%s %s: a load case is named %s: expected at most %d letters, digits and underscores", f->option,
-               f->filename, name, SAM_CASE_NAME);
+    SamFileCheck(f, good, "a load case is named %s: expected at most %d letters, digits and underscores", name,
+                 SAM_CASE_NAME);
     c->cases++;
   }
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -270,9 +212,9 @@ static PetscErrorCode ReadFields(SamFile f, SamCompliance c, const Choice *from,
 {
   PetscFunctionBegin;
   for (PetscInt l = 0; l < c->cases; l++, fields += 3 * c->modes) {
-    Shape  shape = {2, {(hsize_t)from->modes, 3}, 0};
-    char   path[64], whole[128];
-    double field[SAM_COMPLIANCE_MODES][3];
+    char        path[64], whole[SAM_EXPECT_NAME];
+    double      field[SAM_COMPLIANCE_MODES][3];
+    SamExpected row = {path, 2, {(hsize_t)from->modes, 3}, .values = field};
 
     (void)snprintf(path, sizeof(path), "/cases/%s/field", c->name[l]);
     (void)snprintf(whole, sizeof(whole), "%s%s", from->group, path);
@@ -282,7 +224,7 @@ static PetscErrorCode ReadFields(SamFile f, SamCompliance c, const Choice *from,
       continue;
     }
     (void)snprintf(path, sizeof(path), "/cases/%s/displacement", c->name[l]);
-    PetscCall(ReadNumbers(f, from, path, &shape, field[0]));
+    PetscCall(SamFileExpect(f, &kind, from->group, 1, &row));
     for (PetscInt m = 0; m < from->modes; m++)
       for (int k = 0; k < 3 && from->kept[m] >= 0; k++) fields[k * c->modes + from->kept[m]] = field[m][k];
   }
@@ -312,13 +254,12 @@ static PetscErrorCode ReadAxes(SamFile f, SamCompliance c, double values[])
 
   PetscFunctionBegin;
   for (int d = 0; d < 3; d++) {
-    Shape shape = {1, {0}, MOST};
+    SamExpected row = {names[d], 1, {SAM_ANY}, .values = own, .longest = MOST};
 
-    PetscCall(ReadDataset(f, names[d], &shape, own));
-    c->below[d] = (PetscInt)shape.size[0];
+    PetscCall(SamFileExpect(f, &kind, "", 1, &row));
+    c->below[d] = (PetscInt)row.size[0];
     for (PetscInt k = 0; k < c->below[d]; k++) {
-      PetscCheck(!k || own[k] > own[k - 1], f->comm, SAM_ERR_FILE, "-%s %s: %s does not increase: make the file anew",
-                 f->option, f->filename, names[d]);
+      SamFileCheck(f, !k || own[k] > own[k - 1], "%s does not increase: make the file anew", names[d]);
       if (values) *values++ = own[k];
     }
   }
@@ -332,19 +273,17 @@ static PetscErrorCode LookBelow(SamFile f, const void *question, void *answer)
   const hsize_t           n[3] = {(hsize_t)c.below[0], (hsize_t)c.below[1], (hsize_t)c.below[2]}, m = (hsize_t)c.modes;
   const PetscInt          size = SamComplianceField(&c);
   double                 *to   = (double *)answer;
-  Shape                   all  = {6, {m, 3, n[2], n[1], n[0], SAM_STRESS_COMPONENTS}, 0};
+  SamExpected             row  = {"/stress/basis", 6, {m, 3, n[2], n[1], n[0], SAM_STRESS_COMPONENTS}, .values = NULL};
 
   PetscFunctionBegin;
   PetscCall(ReadAxes(f, &c, to));
   to += n[0] + n[1] + n[2];
-  PetscCall(ReadDataset(f, "/stress/basis", &all, to));
+  row.values = to;
+  PetscCall(SamFileExpect(f, &kind, "", 1, &row));
   to += 3 * c.modes * size;
   for (PetscInt l = 0; l < c.cases; l++, to += size) {
-    Shape one = {4, {n[2], n[1], n[0], SAM_STRESS_COMPONENTS}, 0};
-    char  path[64];
-
-    (void)snprintf(path, sizeof(path), "/stress/cases/%s", c.name[l]);
-    PetscCall(ReadDataset(f, path, &one, to));
+    row = (SamExpected){c.name[l], 4, {n[2], n[1], n[0], SAM_STRESS_COMPONENTS}, .values = to};
+    PetscCall(SamFileExpect(f, &kind, "/stress/cases/", 1, &row));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -366,13 +305,11 @@ static PetscErrorCode FindPatch(SamFile f, Choice *from)
 
   PetscFunctionBegin;
   if (group >= 0) (void)SamFileNote(f, H5Gget_info(group, &info));
-  PetscCheck(from->patch >= 0 || group < 0, f->comm, SAM_ERR_FILE,
-             "-%s %s: has several patches of a structure: name one of %s:1 to %s:%d", f->option, f->filename,
-             f->filename, f->filename, (int)info.nlinks);
-  PetscCheck(from->patch == -1 || (from->patch >= 1 && from->patch <= (group < 0 ? 1 : (PetscInt)info.nlinks)), f->comm,
-             SAM_ERR_FILE, "-%s %s: has no patch %" PetscInt_FMT ": it has %d: name one of %s:1 to %s:%d", f->option,
-             f->filename, from->patch, group < 0 ? 1 : (int)info.nlinks, f->filename, f->filename,
-             group < 0 ? 1 : (int)info.nlinks);
+  SamFileCheck(f, from->patch >= 0 || group < 0, "has several patches of a structure: name one of %s:1 to %s:%d",
+               f->filename, f->filename, (int)info.nlinks);
+  SamFileCheck(f, from->patch == -1 || (from->patch >= 1 && from->patch <= (group < 0 ? 1 : (PetscInt)info.nlinks)),
+               "has no patch %" PetscInt_FMT ": it has %d: name one of %s:1 to %s:%d", from->patch,
+               group < 0 ? 1 : (int)info.nlinks, f->filename, f->filename, group < 0 ? 1 : (int)info.nlinks);
   if (group >= 0) (void)snprintf(from->group, sizeof(from->group), "/patches/%" PetscInt_FMT, from->patch);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -412,32 +349,18 @@ PetscErrorCode SamComplianceReadStress(MPI_Comm comm, SamCompliance c, double va
 /* Reads the constants of body 1 if the file is that of a pair. */
 static PetscErrorCode ReadOther(SamFile f, SamCompliance c)
 {
+  SamExpected rows[] = {{"young1", SAM_ATTRIBUTE, {1}, .values = &c->young1, .free = 1},
+                        {"poisson1", SAM_ATTRIBUTE, {1}, .values = &c->poisson1, .free = 1}};
+
   PetscFunctionBegin;
   c->young1 = c->poisson1 = NAN;
   if (!SamFileHasAttribute(f, "young1")) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(ReadAttribute(f, "young1", &c->young1));
-  PetscCall(ReadAttribute(f, "poisson1", &c->poisson1));
-  PetscCheck(c->body == 1, f->comm, SAM_ERR_FILE,
-             "-%s %s: is of a pair of bodies: give it to -body2_compliance alone, which then contains body 1 too",
-             f->option, f->filename);
-  PetscCheck(c->young1 > 0 && isfinite(c->young1) && c->poisson1 > -1 && c->poisson1 <= 0.5, f->comm, SAM_ERR_FILE,
-             "-%s %s: young1 is %.6g, poisson1 %.6g: expected a finite modulus > 0 and a ratio from -1 to 0.5",
-             f->option, f->filename, c->young1, c->poisson1);
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Reads the error by the mesh; files of earlier versions have none. */
-static PetscErrorCode ReadError(SamFile f, SamCompliance c, const Choice *from)
-{
-  Shape scalar = {0, {0}, 0};
-  char  name[64];
-
-  PetscFunctionBegin;
-  (void)snprintf(name, sizeof(name), "%s/mesh_error", from->group);
-  if (H5Lexists(f->id, name, H5P_DEFAULT) <= 0) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(ReadDataset(f, name, &scalar, &c->error));
-  PetscCheck(c->error >= 0, f->comm, SAM_ERR_FILE, "-%s %s: %s is %.6g: expected 0 or more: make the file anew",
-             f->option, f->filename, name, c->error);
+  PetscCall(SamFileExpect(f, &kind, "", SAM_OPTION_ROWS(rows)));
+  SamFileCheck(f, c->body == 1,
+               "is of a pair of bodies: give it to -body2_compliance alone, which then contains body 1 too");
+  SamFileCheck(f, c->young1 > 0 && isfinite(c->young1) && c->poisson1 > -1 && c->poisson1 <= 0.5,
+               "young1 is %.6g, poisson1 %.6g: expected a finite modulus > 0 and a ratio from -1 to 0.5", c->young1,
+               c->poisson1);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -446,26 +369,27 @@ static PetscErrorCode Look(SamFile f, const void *question, void *answer)
   Reading *const reading = (Reading *)answer;
   SamCompliance  c       = &reading->c;
   double         version;
+  SamExpected    error  = {"/mesh_error", 0, {0}, .values = &c->error, .range = SAM_RANGE_NONNEGATIVE, .optional = 1};
+  SamExpected    rows[] = {{"petsam_compliance", SAM_ATTRIBUTE, {1}, .values = &version, .free = 1},
+                           {"young", SAM_ATTRIBUTE, {1}, .values = &c->young, .free = 1},
+                           {"poisson", SAM_ATTRIBUTE, {1}, .values = &c->poisson, .free = 1},
+                           {"datum", SAM_ATTRIBUTE, {1}, .values = &c->datum, .free = 1}};
 
   PetscFunctionBegin;
   *reading = *(const Reading *)question;
-  PetscCall(ReadAttribute(f, "petsam_compliance", &version));
-  PetscCheck(version == 1 || version == SECTION, f->comm, SAM_ERR_FILE,
-             "-%s %s: petsam_compliance is %.6g: expected 1 or %d: use a newer petsam", f->option, f->filename, version,
-             SECTION);
-  PetscCall(ReadAttribute(f, "young", &c->young));
-  PetscCall(ReadAttribute(f, "poisson", &c->poisson));
-  PetscCheck(c->young > 0 && (isinf(c->young) || (c->poisson > -1 && c->poisson <= 0.5)), f->comm, SAM_ERR_FILE,
-             "-%s %s: young is %.6g, poisson %.6g: expected a modulus > 0 and a ratio from -1 to 0.5", f->option,
-             f->filename, c->young, c->poisson);
-  if (version == SECTION) PetscCall(ReadAttribute(f, "datum", &c->datum));
+  PetscCall(SamFileExpect(f, &kind, "", 1, rows));
+  SamFileCheck(f, version == 1 || version == SECTION, "petsam_compliance is %.6g: expected 1 or %d: use a newer petsam",
+               version, SECTION);
+  PetscCall(SamFileExpect(f, &kind, "", version == SECTION ? 3 : 2, rows + 1)); /* only a section has a datum */
+  SamFileCheck(f, c->young > 0 && !isnan(c->poisson) && (isinf(c->young) || (c->poisson > -1 && c->poisson <= 0.5)),
+               "young is %.6g, poisson %.6g: expected a modulus > 0 and a ratio from -1 to 0.5", c->young, c->poisson);
   PetscCall(ReadOther(f, c));
   PetscCall(FindPatch(f, &reading->from));
   PetscCall(ReadBasis(f, c, &reading->from));
-  PetscCall(ReadError(f, c, &reading->from));
-  PetscCheck(version != SECTION || (c->datum >= c->half[0] && isfinite(c->datum)), f->comm, SAM_ERR_FILE,
-             "-%s %s: the attribute datum is %.6g: expected at least half of the patch's width, %.6g m", f->option,
-             f->filename, c->datum, c->half[0]);
+  PetscCall(SamFileExpect(f, &kind, reading->from.group, 1, &error)); /* files of earlier versions have none */
+  SamFileCheck(f, version != SECTION || (c->datum >= c->half[0] && isfinite(c->datum)),
+               "the attribute datum is %.6g: expected at least half of the patch's width, %.6g m", c->datum,
+               c->half[0]);
   PetscCall(ReadCases(f, c, &reading->from));
   if (H5Lexists(f->id, "/stress", H5P_DEFAULT) > 0) PetscCall(ReadAxes(f, c, NULL));
   PetscFunctionReturn(PETSC_SUCCESS);

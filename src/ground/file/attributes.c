@@ -23,34 +23,18 @@ void SamParametersWrite(SamFile f, const SamParameters *parameters)
   SamFileWriteTextAttribute(f, f->id, NAMES, names);
 }
 
-/* Returns the number of values that an attribute has. */
-static PetscInt Count(SamFile f, const char name[])
-{
-  const hid_t attribute = SamFileNote(f, H5Aopen(f->id, name, H5P_DEFAULT)),
-              space     = SamFileNote(f, H5Aget_space(attribute));
-  const hssize_t count  = SamFileNote(f, H5Sget_simple_extent_npoints(space));
-
-  if (space >= 0) (void)SamFileNote(f, H5Sclose(space));
-  if (attribute >= 0) (void)SamFileNote(f, H5Aclose(attribute));
-  return (PetscInt)PetscMin(PetscMax(count, 1), SAM_PARAMETER_VALUES);
-}
-
 /* Reads the value of a parameter from the file. */
-static PetscErrorCode Read(SamFile f, const SamParameter *like, SamParameter *read)
+static void Read(SamFile f, const SamParameter *like, SamParameter *read)
 {
-  char *text = NULL;
+  hssize_t count;
 
-  PetscFunctionBegin;
   *read = *like;
+  (void)SamAttributeClass(f->id, like->name, &count);
   if (like->count) {
-    read->count = Count(f, like->name);
+    read->count = (PetscInt)PetscMin(PetscMax(count, 1), SAM_PARAMETER_VALUES);
     SamFileReadAttribute(f, f->id, like->name, H5T_NATIVE_DOUBLE, read->count, read->value);
-  } else {
-    SamFileReadTextAttribute(f, f->id, like->name, &text);
-    PetscCall(PetscStrncpy(read->text, text ? text : "", sizeof(read->text)));
-    PetscCall(PetscFree(text));
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
+  } else
+    (void)SamTextRead(f->id, like->name, read->text, sizeof(read->text));
 }
 
 static void Print(const SamParameter *p, char text[], size_t size)
@@ -71,21 +55,15 @@ static PetscBool Same(const SamParameter *a, const SamParameter *b)
 }
 
 /* True if the file's value of a parameter was given by the user: inf and 0 also mean that none was given. */
-static PetscErrorCode IsGivenThere(SamFile f, const char name[], PetscBool *given)
+static PetscBool IsGivenThere(SamFile f, const char name[])
 {
   SamParameter like = {.count = 0}, there;
-  hid_t        attribute, type;
+  hssize_t     count;
 
-  PetscFunctionBegin;
-  PetscCall(PetscStrncpy(like.name, name, sizeof(like.name)));
-  attribute  = SamFileNote(f, H5Aopen(f->id, name, H5P_DEFAULT));
-  type       = SamFileNote(f, H5Aget_type(attribute));
-  like.count = type >= 0 && H5Tget_class(type) == H5T_FLOAT;
-  if (type >= 0) (void)SamFileNote(f, H5Tclose(type));
-  if (attribute >= 0) (void)SamFileNote(f, H5Aclose(attribute));
-  PetscCall(Read(f, &like, &there));
-  *given = !there.count || (isfinite(there.value[0]) && there.value[0] != 0) ? PETSC_TRUE : PETSC_FALSE;
-  PetscFunctionReturn(PETSC_SUCCESS);
+  (void)snprintf(like.name, sizeof(like.name), "%s", name);
+  like.count = SamAttributeClass(f->id, name, &count) == H5T_FLOAT;
+  Read(f, &like, &there);
+  return !there.count || (isfinite(there.value[0]) && there.value[0] != 0);
 }
 
 /* True if the file has a fixed parameter that this run does not have; returns the name of the first one with a
@@ -104,7 +82,7 @@ static PetscErrorCode FindOther(SamFile f, const SamParameters *parameters, char
   PetscCall(PetscStrToArray(names ? names : "", ',', &count, &list));
   for (int k = 0; k < count && !given; k++) {
     if (SamParametersFind(parameters, list[k])) continue;
-    PetscCall(IsGivenThere(f, list[k], &given));
+    given = IsGivenThere(f, list[k]);
     if (given || !*found) (void)snprintf(message, size, "-%s is given there, and not here", list[k]);
     *found = PETSC_TRUE;
   }
@@ -127,7 +105,7 @@ PetscBool SamParametersDiffer(SamFile f, const SamParameters *parameters, char m
       (void)snprintf(message, size, "-%s is not given there", now->name);
       return PETSC_TRUE;
     }
-    if (Read(f, now, &there)) (void)SamFileNote(f, -1);
+    Read(f, now, &there);
     if (f->failed || Same(now, &there)) continue;
     Print(&there, text[0], sizeof(text[0]));
     Print(now, text[1], sizeof(text[1]));

@@ -86,29 +86,40 @@ static void CopyTrimmed(const char from[], size_t most, char text[], size_t size
   text[length] = '\0';
 }
 
-PetscBool SamTextRead(hid_t object, const char name[], char text[], size_t size)
+H5T_class_t SamAttributeClass(hid_t object, const char name[], hssize_t *count)
 {
-  const hid_t attribute = H5Aexists(object, name) > 0 ? H5Aopen(object, name, H5P_DEFAULT) : -1;
-  const hid_t type      = attribute >= 0 ? H5Aget_type(attribute) : -1,
-              space     = attribute >= 0 ? H5Aget_space(attribute) : -1;
-  const size_t bytes    = type >= 0 ? H5Tget_size(type) : 0;
-  const int    variable = type >= 0 && H5Tis_variable_str(type) > 0;
-  char        *value    = NULL;
+  const hid_t attribute   = H5Aexists(object, name) > 0 ? H5Aopen(object, name, H5P_DEFAULT) : -1,
+              type        = attribute >= 0 ? H5Aget_type(attribute) : -1,
+              space       = attribute >= 0 ? H5Aget_space(attribute) : -1;
+  const H5T_class_t class = type >= 0 ? H5Tget_class(type) : H5T_NO_CLASS;
 
-  (void)snprintf(text, size, "not a text");
-  if (bytes && space >= 0 && H5Tget_class(type) == H5T_STRING && H5Sget_simple_extent_npoints(space) == 1) {
-    if (variable) {
-      if (H5Aread(attribute, type, &value) >= 0 && value) CopyTrimmed(value, strlen(value), text, size);
-      if (value) (void)H5free_memory(value);
-    } else if ((value = (char *)calloc(bytes, 1)) != NULL) {
-      if (H5Aread(attribute, type, value) >= 0) CopyTrimmed(value, bytes, text, size);
-      free(value);
-    }
-  }
+  *count = space >= 0 ? H5Sget_simple_extent_npoints(space) : 0;
   if (space >= 0) (void)H5Sclose(space);
   if (type >= 0) (void)H5Tclose(type);
   if (attribute >= 0) (void)H5Aclose(attribute);
-  return attribute >= 0;
+  return class;
+}
+
+PetscBool SamTextRead(hid_t object, const char name[], char text[], size_t size)
+{
+  hssize_t        count;
+  const PetscBool is     = SamAttributeClass(object, name, &count) == H5T_STRING && count == 1,
+                  exists = H5Aexists(object, name) > 0;
+  const hid_t attribute = is ? H5Aopen(object, name, H5P_DEFAULT) : -1, type = is ? H5Aget_type(attribute) : -1;
+  char       *value = NULL;
+
+  (void)snprintf(text, size, "not a text");
+  if (!is) return exists;
+  if (H5Tis_variable_str(type) > 0) {
+    if (H5Aread(attribute, type, &value) >= 0 && value) CopyTrimmed(value, strlen(value), text, size);
+    if (value) (void)H5free_memory(value);
+  } else if ((value = (char *)calloc(H5Tget_size(type), 1)) != NULL) {
+    if (H5Aread(attribute, type, value) >= 0) CopyTrimmed(value, H5Tget_size(type), text, size);
+    free(value);
+  }
+  (void)H5Tclose(type);
+  (void)H5Aclose(attribute);
+  return exists;
 }
 
 /* ---- datasets ---- */
@@ -155,16 +166,14 @@ void SamFileAttachScales(SamFile f, hid_t dataset, int count, const hid_t scales
   for (int d = 0; d < count; d++) (void)SamFileNote(f, H5DSattach_scale(dataset, scales[d], (unsigned)d));
 }
 
-int SamFileGetSize(SamFile f, hid_t dataset, int rank, hsize_t size[])
+void SamFileGetSize(SamFile f, hid_t dataset, int rank, hsize_t size[])
 {
   const hid_t space = SamFileNote(f, H5Dget_space(dataset));
-  const int   found = space >= 0 ? H5Sget_simple_extent_ndims(space) : -1;
-  const int   good  = rank ? found == rank : found > 0 && found <= SAM_SHAPE_RANK;
 
-  for (int d = 0; d < (rank ? rank : SAM_SHAPE_RANK); d++) size[d] = 0;
-  (void)SamFileNote(f, good ? H5Sget_simple_extent_dims(space, size, NULL) : -1);
+  for (int d = 0; d < rank; d++) size[d] = 0;
+  (void)SamFileNote(
+    f, space >= 0 && H5Sget_simple_extent_ndims(space) == rank ? H5Sget_simple_extent_dims(space, size, NULL) : -1);
   if (space >= 0) (void)SamFileNote(f, H5Sclose(space));
-  return good ? found : 0;
 }
 
 /* ---- blocks ---- */

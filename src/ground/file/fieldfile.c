@@ -55,20 +55,19 @@ static PetscErrorCode CheckShape(SamFile f, const Wanted *w, hid_t space, hsize_
   const hsize_t least = w->grid ? 1 : 2, row = w->grid ? 0 : w->source->row;
 
   PetscFunctionBegin;
-  PetscCheck(rank == 2 && H5Sget_simple_extent_dims(space, shape, NULL) == 2, f->comm, SAM_ERR_FILE,
-             "-%s %s: %s has %d dimension(s), expected shape (ny, nx), rows are y", f->option, f->filename,
-             w->source->dataset, rank);
-  PetscCheck(shape[0] + row >= least && shape[1] >= least, f->comm, SAM_ERR_FILE,
-             "-%s %s: %s has shape (%lld, %lld), expected %d or more of each", f->option, f->filename,
-             w->source->dataset, (long long)shape[0], (long long)shape[1], (int)least);
+  SamFileCheck(f, rank == 2 && H5Sget_simple_extent_dims(space, shape, NULL) == 2,
+               "%s has %d dimension(s), expected shape (ny, nx), rows are y", w->source->dataset, rank);
+  SamFileCheck(f, shape[0] + row >= least && shape[1] >= least,
+               "%s has shape (%lld, %lld), expected %d or more of each", w->source->dataset, (long long)shape[0],
+               (long long)shape[1], (int)least);
   if (w->grid) {
     const long long ny = w->grid->ny, nx = w->grid->nx;
 
-    PetscCheck(shape[0] == (hsize_t)ny && shape[1] == (hsize_t)nx, f->comm, SAM_ERR_FILE,
-               "-%s %s: %s has shape (%lld, %lld), expected (ny, nx) = (%lld, %lld), rows are y: %s -grid_n %lld,%lld",
-               f->option, f->filename, w->source->dataset, (long long)shape[0], (long long)shape[1], ny, nx,
-               shape[0] == (hsize_t)nx && shape[1] == (hsize_t)ny ? "transpose it, or give" : "it fits",
-               (long long)shape[1], (long long)shape[0]);
+    SamFileCheck(f, shape[0] == (hsize_t)ny && shape[1] == (hsize_t)nx,
+                 "%s has shape (%lld, %lld), expected (ny, nx) = (%lld, %lld), rows are y: %s -grid_n %lld,%lld",
+                 w->source->dataset, (long long)shape[0], (long long)shape[1], ny, nx,
+                 shape[0] == (hsize_t)nx && shape[1] == (hsize_t)ny ? "transpose it, or give" : "it fits",
+                 (long long)shape[1], (long long)shape[0]);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -93,11 +92,10 @@ static PetscErrorCode CheckLengths(SamFile f, const Wanted *w, hid_t dataset, An
     if (!(size[d] > 0)) size[d] = grid->width[d]; /* the size along one axis may be missing */
     fits = fits && fabs(size[d] - grid->width[d]) <= size_tolerance * grid->width[d];
   }
-  PetscCheck(fits, f->comm, SAM_ERR_FILE,
-             "-%s %s: %s is a surface of %.10g m x %.10g m by its x and y or its size, but the grid is %.10g m x "
-             "%.10g m: give -grid_size %.10g,%.10g, or cut the surface by petsam-surface",
-             f->option, f->filename, w->source->dataset, size[0], size[1], (double)grid->width[0],
-             (double)grid->width[1], size[0], size[1]);
+  SamFileCheck(f, fits,
+               "%s is a surface of %.10g m x %.10g m by its x and y or its size, but the grid is %.10g m x "
+               "%.10g m: give -grid_size %.10g,%.10g, or cut the surface by petsam-surface",
+               w->source->dataset, size[0], size[1], (double)grid->width[0], (double)grid->width[1], size[0], size[1]);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -136,19 +134,17 @@ static PetscErrorCode Look(SamFile f, const void *question, void *answer)
   PetscFunctionBegin;
   found->factor = 1;
   if (dataset < 0) ListNames(f->id, names, sizeof(names));
-  PetscCheck(dataset >= 0, f->comm, SAM_ERR_FILE, "-%s %s: has no dataset %.160s (-%s%s); it has %s", f->option,
-             f->filename, name, w->source->prefix, w->source->dataset_option, names);
+  SamFileCheck(f, dataset >= 0, "has no dataset %.160s (-%s%s); it has %s", name, w->source->prefix,
+               w->source->dataset_option, names);
   type  = H5Dget_type(dataset);
   space = H5Dget_space(dataset);
   kind  = H5Tget_class(type);
   (void)H5Tclose(type);
-  PetscCheck(kind == H5T_FLOAT || kind == H5T_INTEGER, f->comm, SAM_ERR_FILE,
-             "-%s %s: %s holds neither real numbers nor integers", f->option, f->filename, name);
+  SamFileCheck(f, kind == H5T_FLOAT || kind == H5T_INTEGER, "%s holds neither real numbers nor integers", name);
   ierr = CheckShape(f, w, space, found->shape);
   (void)H5Sclose(space);
   PetscCall(ierr);
-  PetscCheck(SamFileIsWhole(f, dataset, NULL, PETSC_FALSE), f->comm, SAM_ERR_FILE,
-             "-%s %s: %s cannot be read: the file is damaged", f->option, f->filename, name);
+  SamFileCheck(f, SamFileIsWhole(f, dataset, NULL, PETSC_FALSE), "%s cannot be read: the file is damaged", name);
   if (w->source->is_length) PetscCall(CheckLengths(f, w, dataset, found));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -51,8 +51,7 @@ static PetscErrorCode ReadUnits(SamFile f, hid_t dataset, const char name[], dou
   *metres = 0;
   if (!SamTextRead(dataset, "units", text, sizeof(text))) PetscFunctionReturn(PETSC_SUCCESS);
   *metres = Metres(text);
-  PetscCheck(*metres > 0, f->comm, SAM_ERR_FILE, "-%s %s: %s: its attribute units is \"%s\": known are " UNITS,
-             f->option, f->filename, name, text);
+  SamFileCheck(f, *metres > 0, "%s: its attribute units is \"%s\": known are " UNITS, name, text);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -67,29 +66,26 @@ static PetscErrorCode ReadQuantity(SamFile f, hid_t dataset, const char name[], 
     *sign = quantities[k].sign;
     if (!strcmp(text, quantities[k].name)) PetscFunctionReturn(PETSC_SUCCESS);
   }
-  SETERRQ(f->comm, SAM_ERR_FILE,
-          "-%s %s: %s: its attribute quantity is \"%s\": known are separation, height1, height2 (heights of body 1 or "
-          "2, positive out of the body)",
-          f->option, f->filename, name, text);
+  PetscCall(
+    SamFileRefuse(f,
+                  "%s: its attribute quantity is \"%s\": known are separation, height1, height2 (heights of body 1 or "
+                  "2, positive out of the body)",
+                  name, text));
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* Reads the attribute size, if there is one. */
 static PetscErrorCode ReadSize(SamFile f, hid_t dataset, const char name[], PetscBool *has, double size[2])
 {
-  hid_t     attribute, space;
-  PetscBool good;
+  hssize_t count;
 
   PetscFunctionBegin;
   *has = H5Aexists(dataset, "size") > 0;
   if (!*has) PetscFunctionReturn(PETSC_SUCCESS);
-  attribute = H5Aopen(dataset, "size", H5P_DEFAULT);
-  space     = H5Aget_space(attribute);
-  good = space >= 0 && H5Sget_simple_extent_npoints(space) == 2 && H5Aread(attribute, H5T_NATIVE_DOUBLE, size) >= 0 &&
-         size[0] > 0 && size[1] > 0 && isfinite(size[0] + size[1]);
-  if (space >= 0) (void)H5Sclose(space);
-  if (attribute >= 0) (void)H5Aclose(attribute);
-  PetscCheck(good, f->comm, SAM_ERR_FILE, "-%s %s: %s: its attribute size is not two positive numbers: x, y in m",
-             f->option, f->filename, name);
+  (void)SamAttributeClass(dataset, "size", &count);
+  if (count == 2) SamFileReadAttribute(f, dataset, "size", H5T_NATIVE_DOUBLE, 2, size);
+  SamFileCheck(f, count == 2 && !f->failed && size[0] > 0 && size[1] > 0 && isfinite(size[0] + size[1]),
+               "%s: its attribute size is not two positive numbers: x, y in m", name);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -133,9 +129,9 @@ static PetscErrorCode ReadAxis(SamFile f, const char dataset[], char letter, hsi
   if (H5Aexists(axis, "units") > 0) width = ReadWidth(axis, n, &middle);
   if (!isnan(width)) PetscCall(ReadUnits(f, axis, name, &metres)); /* otherwise the dataset is not an axis */
   (void)H5Dclose(axis);
-  PetscCheck(!(width < 0), f->comm, SAM_ERR_FILE,
-             "-%s %s: %s falls along the file, so the surface would be mirrored: reverse it and the values of %s",
-             f->option, f->filename, name, dataset);
+  SamFileCheck(f, !(width < 0),
+               "%s falls along the file, so the surface would be mirrored: reverse it and the values of %s", name,
+               dataset);
   if (isnan(width)) PetscFunctionReturn(PETSC_SUCCESS);
   *size   = width * metres;
   *center = middle * metres;
@@ -149,10 +145,10 @@ PetscErrorCode SamLengthsRead(SamFile f, hid_t dataset, const char name[], const
 
   PetscFunctionBegin;
   *lengths = (SamLengths){.factor = 1};
-  PetscCheck(H5Aexists(dataset, "scale_factor") <= 0 && H5Aexists(dataset, "add_offset") <= 0, f->comm, SAM_ERR_FILE,
-             "-%s %s: %s: its attributes scale_factor or add_offset say that it is packed: expected the numbers "
-             "themselves, and no such attributes",
-             f->option, f->filename, name);
+  SamFileCheck(f, H5Aexists(dataset, "scale_factor") <= 0 && H5Aexists(dataset, "add_offset") <= 0,
+               "%s: its attributes scale_factor or add_offset say that it is packed: expected the numbers "
+               "themselves, and no such attributes",
+               name);
   PetscCall(ReadUnits(f, dataset, name, &metres));
   PetscCall(ReadQuantity(f, dataset, name, &sign));
   lengths->factor = sign * (metres > 0 ? metres : 1);

@@ -78,12 +78,12 @@ PetscErrorCode SamOutputAppendPoints(SamOutput o, hid_t dataset, hsize_t count, 
   for (hsize_t k = 0; k < count; k++) most = PetscMax(most, points[k].count);
   PetscCall(PetscMalloc1(2 * most * count, &xy));
   Align(o, count, most, points, xy);
-  (void)SamFileGetSize(o->f, dataset, 3, size);
+  SamFileGetSize(o->f, dataset, 3, size);
   size[0] = o->saved + count;
   size[1] = PetscMax(size[1], most);
   size[2] = 2;
   (void)SamFileNote(o->f, H5Dset_extent(dataset, size));
-  (void)SamFileGetSize(o->f, o->point, 1, scale); /* as long as the longest edge */
+  SamFileGetSize(o->f, o->point, 1, scale); /* as long as the longest edge */
   if (scale[0] < size[1]) (void)SamFileNote(o->f, H5Dset_extent(o->point, &size[1]));
   block = (SamBlock){3, {o->saved, 0, 0}, {count, o->f->rank ? 0 : most, 2}};
   SamFileWriteBlock(o->f, dataset, H5T_NATIVE_DOUBLE, &block, xy);

@@ -259,7 +259,7 @@ static PetscErrorCode ReadTable(SamFile f, SamStepCache cache)
   double     *table;
 
   PetscFunctionBegin;
-  (void)SamFileGetSize(f, dataset, 2, size);
+  SamFileGetSize(f, dataset, 2, size);
   PetscCall(PetscCalloc1(size[0] * size[1] + 1, &table));
   SamFileReadBlock(f, dataset, H5T_NATIVE_DOUBLE, &(SamBlock){2, {0, 0}, {size[0], size[1]}}, table);
   Close(f, dataset);

@@ -29,8 +29,8 @@ typedef struct {
   char          identity[32], follows[32]; /* identity of the file, and of the part before; empty: none */
   int           groups;                    /* number of groups with stresses in layers */
   Group         group[SAM_LAYER_GROUPS];
-  int           has[SAM_STRESS_FIELDS], number[SAM_RESULTS_NUMBERS];
-  int           column[SAM_PARAMETERS]; /* true if a parameter is also a column of the history */
+  PetscBool     has[SAM_STRESS_FIELDS], number[SAM_RESULTS_NUMBERS];
+  PetscBool     column[SAM_PARAMETERS]; /* true if a parameter is also a column of the history */
 } Facts;
 
 /* One file of the run */
@@ -38,7 +38,6 @@ typedef struct {
   Facts    facts;
   PetscInt steps; /* number from the run's start to the beginning of the next part */
   SamFile  file;
-  hid_t    field[SAM_STRESS_FIELDS], stress[SAM_LAYER_GROUPS][SAM_STRESS_COMPONENTS];
 } Part;
 
 /* Place of the fields of a saved step */
@@ -62,43 +61,7 @@ struct _n_SamResults {
 
 /* ---- examination, by one rank ---- */
 
-/* Rejects the file unless a condition holds; the text describes the fault. */
-#define CHECK(f, is, ...) \
-  do { \
-    char fault[256]; \
-    (void)snprintf(fault, sizeof(fault), __VA_ARGS__); \
-    PetscCheck(is, (f)->comm, SAM_ERR_FILE, SAM_CANNOT_READ, (f)->option, (f)->filename, fault); \
-  } while (0)
-
-/* Returns the number of values of a root attribute that has numbers. */
-static hssize_t CountNumbers(SamFile f, const char name[])
-{
-  const hid_t attribute = H5Aopen(f->id, name, H5P_DEFAULT), type = attribute >= 0 ? H5Aget_type(attribute) : -1,
-              space       = attribute >= 0 ? H5Aget_space(attribute) : -1;
-  const H5T_class_t class = type >= 0 ? H5Tget_class(type) : H5T_NO_CLASS;
-  const hssize_t count    = class == H5T_FLOAT || class == H5T_INTEGER ? H5Sget_simple_extent_npoints(space) : 0;
-
-  if (space >= 0) (void)H5Sclose(space);
-  if (type >= 0) (void)H5Tclose(type);
-  if (attribute >= 0) (void)H5Aclose(attribute);
-  return count;
-}
-
-/* Reads a root attribute of so many numbers. */
-static PetscErrorCode GetNumbers(SamFile f, const char name[], PetscInt count, double values[])
-{
-  PetscFunctionBegin;
-  CHECK(f, SamFileHasAttribute(f, name), "it lacks the attribute %s of a results file of petsam", name);
-  CHECK(f, CountNumbers(f, name) == count, "its attribute %s is not what petsam writes", name);
-  SamFileReadAttribute(f, f->id, name, H5T_NATIVE_DOUBLE, count, values);
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Reads a root attribute that is a text shorter than `size`; empty if it is missing. */
-static void GetText(SamFile f, const char name[], size_t size, char text[])
-{
-  if (!SamTextRead(f->id, name, text, size) || strlen(text) + 1 == size) text[0] = '\0';
-}
+static const SamFileKind kind = {"results file", "petsam"};
 
 /*
   Reads the root attributes that may be parameters: a few numbers, or a short text. A constant of a body in another form
@@ -107,118 +70,61 @@ static void GetText(SamFile f, const char name[], size_t size, char text[])
 static void GetParameters(SamFile f, SamParameters *all)
 {
   for (hsize_t k = 0; all->count < SAM_PARAMETERS; k++) {
-    SamParameter *const p         = &all->list[all->count];
-    const hid_t         attribute = H5Aopen_by_idx(f->id, ".", H5_INDEX_NAME, H5_ITER_INC, k, H5P_DEFAULT, H5P_DEFAULT);
-    const hid_t type = attribute >= 0 ? H5Aget_type(attribute) : -1, space = type >= 0 ? H5Aget_space(attribute) : -1;
-    const hssize_t count = space >= 0 ? H5Sget_simple_extent_npoints(space) : 0;
+    SamParameter *const p = &all->list[all->count];
+    const ssize_t       size =
+      H5Aget_name_by_idx(f->id, ".", H5_INDEX_NAME, H5_ITER_INC, k, p->name, sizeof(p->name), H5P_DEFAULT);
+    hssize_t count;
+    H5T_class_t class;
 
-    if (attribute < 0) break;
-    if (H5Aget_name(attribute, sizeof(p->name), p->name) < (ssize_t)sizeof(p->name)) {
-      if (H5Tget_class(type) == H5T_STRING) GetText(f, p->name, sizeof(p->text), p->text);
-      if (H5Tget_class(type) == H5T_FLOAT && count > 0 && count <= SAM_PARAMETER_VALUES &&
-          H5Aread(attribute, H5T_NATIVE_DOUBLE, p->value) >= 0)
-        p->count = (PetscInt)count;
-      if (!p->count && !p->text[0] && !strncmp(p->name, "body", 4)) p->count = -1;
-      if (p->count || p->text[0]) all->count++;
+    if (size < 0) break;
+    if (size >= (ssize_t)sizeof(p->name)) continue;
+    class = SamAttributeClass(f->id, p->name, &count);
+    (void)SamFileExpect(f, &kind, "", class == H5T_STRING,
+                        &(SamExpected){p->name, SAM_TEXT, {sizeof(p->text)}, .values = p->text});
+    if (class == H5T_FLOAT && count > 0 && count <= SAM_PARAMETER_VALUES) {
+      SamFileReadAttribute(f, f->id, p->name, H5T_NATIVE_DOUBLE, count, p->value);
+      p->count = (PetscInt)count;
     }
-    if (space >= 0) (void)H5Sclose(space);
-    if (type >= 0) (void)H5Tclose(type);
-    (void)H5Aclose(attribute);
+    if (!p->count && !p->text[0] && !strncmp(p->name, "body", 4)) p->count = -1;
+    if (p->count || p->text[0]) all->count++;
   }
 }
 
-/* Opens a dataset of numbers with that number of dimensions, and gets its shape. */
-static PetscErrorCode Open(SamFile f, const char name[], int rank, hsize_t shape[], hid_t *dataset)
-{
-  H5T_class_t type;
-
-  PetscFunctionBegin;
-  *dataset = H5Dopen2(f->id, name, H5P_DEFAULT);
-  CHECK(f, *dataset >= 0, "it has no dataset %s", name);
-  type = H5Tget_class(H5Dget_type(*dataset));
-  CHECK(f, (type == H5T_FLOAT || type == H5T_INTEGER) && H5Sget_simple_extent_ndims(H5Dget_space(*dataset)) == rank,
-        "%s is not what petsam writes", name);
-  (void)SamFileGetSize(f, *dataset, rank, shape);
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode CheckWhole(SamFile f, const char name[], hid_t dataset, const hsize_t shape[])
-{
-  PetscFunctionBegin;
-  CHECK(f, SamFileIsWhole(f, dataset, shape, PETSC_TRUE), "it is damaged: %s is not in it as a whole", name);
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-typedef char Name[80];
-
-static void NameField(int k, Name name)
-{
-  (void)snprintf(name, sizeof(Name), "/%s", SamStressField(k));
-}
-
+/* Examines the fields; the least number of steps in them is that of the saved ones. */
 static PetscErrorCode ExamineFields(SamFile f, Facts *facts)
 {
-  hsize_t shape[3];
-  hid_t   dataset[SAM_STRESS_FIELDS], times;
+  const hsize_t nx = (hsize_t)facts->n[0], ny = (hsize_t)facts->n[1];
 
   PetscFunctionBegin;
-  PetscCall(Open(f, "/history/time", 1, &facts->steps, &times));
-  PetscCall(Open(f, "/time", 1, &facts->saved, &times));
-  for (int k = 0; SamStressField(k); k++) {
-    Name name;
+  for (int whole = 0; whole < 2; whole++)
+    for (int k = 0; SamStressField(k); k++) {
+      SamExpected row = {
+        SamStressField(k), 3, {whole ? facts->saved : 0, ny, nx}, .grows = 1, .optional = k >= SAM_STRESS_TRACTIONS};
 
-    NameField(k, name);
-    facts->has[k] = k < SAM_STRESS_TRACTIONS || H5Lexists(f->id, name, H5P_DEFAULT) > 0;
-    if (!facts->has[k]) continue;
-    PetscCall(Open(f, name, 3, shape, &dataset[k]));
-    facts->saved = PetscMin(facts->saved, shape[0]);
-    CHECK(f, (double)shape[1] == facts->n[1] && (double)shape[2] == facts->n[0],
-          "%s has %llu x %llu cells, not the %.6g x %.6g of -grid_n", name, (unsigned long long)shape[2],
-          (unsigned long long)shape[1], facts->n[0], facts->n[1]);
-  }
-  shape[0] = facts->saved;
-  for (int k = 0; SamStressField(k); k++) {
-    Name name;
-
-    NameField(k, name);
-    if (facts->has[k]) PetscCall(CheckWhole(f, name, dataset[k], shape));
-  }
+      PetscCall(SamFileExpect(f, &kind, "/", 1, &row));
+      facts->has[k] = row.found;
+      if (row.found) facts->saved = PetscMin(facts->saved, row.size[0]);
+    }
   PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Writes the name of a stress in a group of layers. */
-static void NameStress(const Group *g, int component, Name name)
-{
-  (void)snprintf(name, sizeof(Name), "/%s/%s", g->name, SamLayerStresses[component]);
 }
 
 /* Examines the stresses of a group, unless the first of their components is missing. */
-static PetscErrorCode ExamineGroup(SamFile f, Facts *facts, Group *g)
+static PetscErrorCode ExamineGroup(SamFile f, const Facts *facts, Group *g)
 {
-  const double layers = (double)g->count[0] + (double)g->count[1];
-  hsize_t      shape[4];
-  hid_t        dataset;
-  Name         name;
+  const hsize_t nx = (hsize_t)facts->n[0], ny = (hsize_t)facts->n[1], layers = (hsize_t)(g->count[0] + g->count[1]);
+  SamExpected   z = {"z", 1, {layers}, .optional = 0};
+  char          group[SAM_LAYER_NAME + 2];
 
   PetscFunctionBegin;
-  NameStress(g, 0, name);
-  g->saved = H5Lexists(f->id, g->name, H5P_DEFAULT) > 0 && H5Lexists(f->id, name, H5P_DEFAULT) > 0;
-  if (!g->saved) PetscFunctionReturn(PETSC_SUCCESS);
-  (void)snprintf(name, sizeof(name), "/%s/z", g->name);
-  PetscCall(Open(f, name, 1, shape, &dataset));
-  CHECK(f, (double)shape[0] == layers, "%s has %llu depths, not those of %.0f layers", name,
-        (unsigned long long)shape[0], layers);
-  PetscCall(CheckWhole(f, name, dataset, shape));
+  (void)snprintf(group, sizeof(group), "/%s/", g->name);
   for (int c = 0; c < SAM_STRESS_COMPONENTS; c++) {
-    NameStress(g, c, name);
-    PetscCall(Open(f, name, 4, shape, &dataset));
-    CHECK(f,
-          shape[0] >= facts->saved && (double)shape[1] == layers && (double)shape[2] == facts->n[1] &&
-            (double)shape[3] == facts->n[0],
-          "%s has another shape than the run", name);
-    shape[0] = facts->saved;
-    PetscCall(CheckWhole(f, name, dataset, shape));
+    SamExpected row = {SamLayerStresses[c], 4, {facts->saved, layers, ny, nx}, .grows = 1, .optional = !c};
+
+    PetscCall(SamFileExpect(f, &kind, group, 1, &row));
+    if (!c) g->saved = row.found;
+    if (!g->saved) break;
   }
+  if (g->saved) PetscCall(SamFileExpect(f, &kind, group, 1, &z));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -238,86 +144,82 @@ static PetscBool Yields(const SamParameters *parameters, int body)
 */
 static PetscErrorCode ExamineGroups(SamFile f, Facts *facts)
 {
-  char names[256], *rest = names;
-  int  has[2] = {0, 0};
+  char        names[256], *rest = names;
+  int         has[2] = {0, 0};
+  SamExpected list   = {SAM_OUTPUT_STRESSES, SAM_TEXT, {sizeof(names)}, .values = names};
 
   PetscFunctionBegin;
-  GetText(f, SAM_OUTPUT_STRESSES, sizeof(names), names);
+  PetscCall(SamFileExpect(f, &kind, "", 1, &list));
   for (char *name = strtok_r(names, ",", &rest); name; name = strtok_r(NULL, ",", &rest)) {
-    Group *const g        = &facts->group[facts->groups];
-    double       about[3] = {0};
-    Name         layers;
+    Group *const g = &facts->group[facts->groups];
+    double       about[3];
+    char         layers[SAM_EXPECT_NAME];
+    SamExpected  row = {layers, SAM_ATTRIBUTE, {3}, .values = about, .most = MOST_LAYERS};
 
-    CHECK(f, facts->groups < SAM_LAYER_GROUPS && strlen(name) < sizeof(g->name), SAM_OUTPUT_STRESSES " is damaged");
+    SamFileCheck(f, facts->groups < SAM_LAYER_GROUPS && strlen(name) < sizeof(g->name),
+                 "cannot be read: " SAM_OUTPUT_STRESSES " is damaged");
     for (int k = 0; k < facts->groups; k++)
-      CHECK(f, strcmp(facts->group[k].name, name), SAM_OUTPUT_STRESSES " names %s twice", name);
+      SamFileCheck(f, strcmp(facts->group[k].name, name), "cannot be read: " SAM_OUTPUT_STRESSES " names %s twice",
+                   name);
     (void)snprintf(g->name, sizeof(g->name), "%s", name);
     (void)snprintf(layers, sizeof(layers), "%s" SAM_OUTPUT_LAYERS, name);
-    PetscCall(GetNumbers(f, layers, 3, about));
+    PetscCall(SamFileExpect(f, &kind, "", 1, &row));
+    SamFileCheck(f, about[2] <= 1, "cannot be read: %s is damaged: its last number is %.6g, expected 0 or 1", layers,
+                 about[2]);
     for (int b = 0; b < 2; b++) {
-      CHECK(f, about[b] >= 0 && about[b] <= MOST_LAYERS && about[b] == floor(about[b]), "%s is damaged", layers);
       g->count[b] = (int)about[b];
       has[b]      = has[b] || g->count[b];
     }
-    CHECK(f, about[2] == 0 || about[2] == 1, "%s is damaged", layers);
     g->initial = about[2] != 0;
     PetscCall(ExamineGroup(f, facts, g));
     facts->groups++;
   }
   for (int b = 0; b < 2; b++)
-    CHECK(f, has[b] || !Yields(&facts->parameters, b),
-          "body %d yields, but the attribute " SAM_OUTPUT_STRESSES
-          " names no stresses in its layers: it is damaged, or "
-          "of an earlier petsam: run petsam again",
-          b + 1);
+    SamFileCheck(f, has[b] || !Yields(&facts->parameters, b),
+                 "cannot be read: body %d yields, but the attribute " SAM_OUTPUT_STRESSES
+                 " names no stresses in its layers: it is damaged, or of an earlier petsam: run petsam again",
+                 b + 1);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* Finds out if an optional column of the history exists. */
-static PetscErrorCode ExamineColumn(SamFile f, const Facts *facts, const char column[], int *has)
+static PetscErrorCode ExamineColumn(SamFile f, const Facts *facts, const char column[], PetscBool *has)
 {
-  hsize_t shape[1];
-  hid_t   dataset;
-  char    name[64];
+  SamExpected row = {column, 1, {0}, .grows = 1, .optional = 1};
 
   PetscFunctionBegin;
-  (void)snprintf(name, sizeof(name), "/history/%s", column);
-  *has = H5Lexists(f->id, name, H5P_DEFAULT) > 0;
-  if (!*has) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(Open(f, name, 1, shape, &dataset));
-  CHECK(f, shape[0] >= facts->steps, "%s has %llu values", name, (unsigned long long)shape[0]);
+  PetscCall(SamFileExpect(f, &kind, "/history/", 1, &row));
+  *has = row.found;
+  SamFileCheck(f, !row.found || row.size[0] >= facts->steps,
+               "cannot be read: /history/%s has %llu values, not the %llu of /history/time", column,
+               (unsigned long long)row.size[0], (unsigned long long)facts->steps);
   PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscBool IsPlausible(const Facts *f)
-{
-  for (int k = 0; k < 2; k++) {
-    if (!(f->n[k] >= 2 - k && f->n[k] <= 1e9 && f->n[k] == floor(f->n[k]) && f->width[k] > 0 && isfinite(f->width[k])))
-      return PETSC_FALSE;
-    if (!(f->first >= 0 && f->first <= 1e9 && f->first == floor(f->first))) return PETSC_FALSE;
-    if (!isfinite(f->center[k])) return PETSC_FALSE;
-  }
-  return PETSC_TRUE;
 }
 
 static PetscErrorCode Look(SamFile f, const void *question, void *answer)
 {
   Facts *facts = (Facts *)answer;
 
+  SamExpected attributes[] = {
+    {"grid_n", SAM_ATTRIBUTE, {2}, .values = facts->n, .range = SAM_RANGE_POSITIVE, .most = 1e9},
+    {"grid_size", SAM_ATTRIBUTE, {2}, .values = facts->width, .range = SAM_RANGE_POSITIVE},
+    {"grid_center", SAM_ATTRIBUTE, {2}, .values = facts->center},
+    {SAM_OUTPUT_TRACTIONS, SAM_ATTRIBUTE, {1}, .values = &facts->tractions, .free = 1, .optional = 1},
+    {SAM_OUTPUT_BRANCH, SAM_ATTRIBUTE, {1}, .values = &facts->first, .most = 1e9, .optional = 1},
+    {"options", SAM_TEXT, {sizeof(facts->options)}, .values = facts->options},
+    {SAM_OUTPUT_IDENTITY, SAM_TEXT, {sizeof(facts->identity)}, .values = facts->identity},
+    {SAM_OUTPUT_FOLLOWS, SAM_TEXT, {sizeof(facts->follows)}, .values = facts->follows}};
+  SamExpected times[] = {{"/history/time", 1, {0}, .grows = 1}, {"/time", 1, {0}, .grows = 1}};
+
   PetscFunctionBegin;
   (void)question;
-  PetscCall(GetNumbers(f, "grid_n", 2, facts->n));
-  PetscCall(GetNumbers(f, "grid_size", 2, facts->width));
-  PetscCall(GetNumbers(f, "grid_center", 2, facts->center));
-  GetParameters(f, &facts->parameters);
-  GetText(f, "options", sizeof(facts->options), facts->options);
   facts->tractions = NAN;
-  if (SamFileHasAttribute(f, SAM_OUTPUT_TRACTIONS))
-    PetscCall(GetNumbers(f, SAM_OUTPUT_TRACTIONS, 1, &facts->tractions));
-  if (SamFileHasAttribute(f, SAM_OUTPUT_BRANCH)) PetscCall(GetNumbers(f, SAM_OUTPUT_BRANCH, 1, &facts->first));
-  GetText(f, SAM_OUTPUT_IDENTITY, sizeof(facts->identity), facts->identity);
-  GetText(f, SAM_OUTPUT_FOLLOWS, sizeof(facts->follows), facts->follows);
-  CHECK(f, IsPlausible(facts), "its parameters are not those of a run of petsam");
+  PetscCall(SamFileExpect(f, &kind, "", SAM_OPTION_ROWS(attributes)));
+  SamFileCheck(f, facts->n[0] >= 2, "cannot be read: grid_n is %.6g along x: expected 2 or more", facts->n[0]);
+  GetParameters(f, &facts->parameters);
+  PetscCall(SamFileExpect(f, &kind, "", SAM_OPTION_ROWS(times)));
+  facts->steps = times[0].size[0];
+  facts->saved = times[1].size[0];
   PetscCall(ExamineFields(f, facts));
   PetscCall(ExamineGroups(f, facts));
   for (int n = 0; n < SAM_RESULTS_NUMBERS; n++) PetscCall(ExamineColumn(f, facts, numbers[n], &facts->number[n]));
@@ -325,23 +227,29 @@ static PetscErrorCode Look(SamFile f, const void *question, void *answer)
     const char *name = facts->parameters.list[k].name;
 
     PetscCall(ExamineColumn(f, facts, name, &facts->column[k]));
-    CHECK(f, facts->column[k] || strstr(name, "_case_") != name + 5, "it has no column %s", name);
+    SamFileCheck(f, facts->column[k] || strstr(name, "_case_") != name + 5, "cannot be read: it has no column %s",
+                 name);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* ---- opening ---- */
 
-static void ReadSeries(SamFile file, const char name[], hsize_t first, hsize_t count, double values[])
+/* Reads a block of a dataset of a part. */
+static PetscErrorCode ReadBlock(const Part *part, const char name[], const SamBlock *block, double values[])
 {
-  const hid_t    dataset = SamFileNote(file, H5Dopen2(file->id, name, H5P_DEFAULT));
-  const SamBlock block   = {1, {first}, {count}};
+  hid_t dataset;
 
-  SamFileReadBlock(file, dataset, H5T_NATIVE_DOUBLE, &block, values);
-  (void)SamFileNote(file, H5Dclose(dataset));
+  PetscFunctionBegin;
+  PetscCall(SamFileBegin(part->file));
+  dataset = SamFileNote(part->file, H5Dopen2(part->file->id, name, H5P_DEFAULT));
+  SamFileReadBlock(part->file, dataset, H5T_NATIVE_DOUBLE, block, values);
+  (void)SamFileNote(part->file, H5Dclose(dataset));
+  PetscCall(SamFileEnd(part->file));
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Opens a part and adds its saved steps; the part before may already have saved the first of them. */
+/* Adds the saved steps of a part; the part before may already have saved the first of them. */
 static PetscErrorCode ReadTimes(SamResults r, Part *part)
 {
   const Facts  *facts = &part->facts;
@@ -353,20 +261,8 @@ static PetscErrorCode ReadTimes(SamResults r, Part *part)
   PetscCall(PetscCalloc1(steps + 1, &times));
   PetscCall(PetscCalloc1(saved + 1, &saves));
   PetscCall(PetscRealloc(sizeof(Saved) * ((size_t)r->saves + saved + 1), &r->saved));
-  PetscCall(SamFileBegin(part->file));
-  ReadSeries(part->file, "/history/time", 0, steps, times);
-  ReadSeries(part->file, "/time", 0, saved, saves);
-  for (int k = 0; SamStressField(k); k++)
-    if (facts->has[k])
-      part->field[k] = SamFileNote(part->file, H5Dopen2(part->file->id, SamStressField(k), H5P_DEFAULT));
-  for (int g = 0; g < facts->groups; g++)
-    for (int c = 0; c < SAM_STRESS_COMPONENTS && facts->group[g].saved; c++) {
-      Name name;
-
-      NameStress(&facts->group[g], c, name);
-      part->stress[g][c] = SamFileNote(part->file, H5Dopen2(part->file->id, name, H5P_DEFAULT));
-    }
-  PetscCall(SamFileEnd(part->file));
+  PetscCall(ReadBlock(part, "/history/time", &(SamBlock){1, {0}, {steps}}, times));
+  PetscCall(ReadBlock(part, "/time", &(SamBlock){1, {0}, {saved}}, saves));
   for (hsize_t k = 0; k < saved; k++) {
     const PetscBool before = r->count > 1 && k == 0 && steps && saves[0] < times[0]; /* the last step before the part */
     PetscInt        step;
@@ -460,7 +356,7 @@ static PetscErrorCode ReadLayers(SamResults r)
     SamStateLayers *const to    = &r->layers[g];
     const PetscInt        count = of->count[0] + of->count[1];
     PetscBool             saved = PETSC_TRUE;
-    Name                  name;
+    char                  name[SAM_EXPECT_NAME];
 
     *to = (SamStateLayers){
       of->name, {of->count[0], of->count[1]}, NULL, PETSC_TRUE, of->initial ? PETSC_TRUE : PETSC_FALSE};
@@ -468,13 +364,11 @@ static PetscErrorCode ReadLayers(SamResults r)
     if (!saved) continue;
     PetscCall(PetscMalloc1(count, &to->z));
     (void)snprintf(name, sizeof(name), "/%s/z", of->name);
-    PetscCall(SamFileBegin(part->file));
-    ReadSeries(part->file, name, 0, (hsize_t)count, to->z);
-    PetscCall(SamFileEnd(part->file));
+    PetscCall(ReadBlock(part, name, &(SamBlock){1, {0}, {(hsize_t)count}}, to->z));
     for (PetscInt l = 0; l < count; l++)
-      PetscCheck(isfinite(to->z[l]) && (l == 0 || to->z[l] > to->z[l - 1]) && (to->z[l] < 0) == (l < to->count[0]),
-                 part->file->comm, SAM_ERR_FILE, SAM_CANNOT_READ, part->file->option, part->file->filename,
-                 "the z of its layers does not rise");
+      SamFileCheck(part->file,
+                   isfinite(to->z[l]) && (l == 0 || to->z[l] > to->z[l - 1]) && (to->z[l] < 0) == (l < to->count[0]),
+                   "cannot be read: the z of its layers does not rise");
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -570,34 +464,35 @@ PetscErrorCode SamResultsGetSaved(SamResults r, PetscInt k, PetscInt *step, Pets
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Raises an error if a value on any rank is not finite. */
-static PetscErrorCode CheckFinite(const Part *part, PetscInt n, const double values[], const char name[], PetscInt step)
+/* Reads a block of finite numbers of a step. */
+static PetscErrorCode ReadFinite(const Part *part, const char name[], const SamBlock *block, PetscInt step,
+                                 double values[])
 {
   PetscReal wrong = 0;
+  hsize_t   n     = 1;
 
   PetscFunctionBegin;
-  for (PetscInt k = 0; k < n && wrong == 0; k++) wrong = isfinite(values[k]) ? 0 : 1;
+  PetscCall(ReadBlock(part, name, block, values));
+  for (int d = 0; d < block->rank; d++) n *= block->count[d];
+  for (hsize_t k = 0; k < n && wrong == 0; k++) wrong = isfinite(values[k]) ? 0 : 1;
   PetscCall(SamMax(part->file->comm, 1, &wrong));
-  PetscCheck(wrong == 0, part->file->comm, SAM_ERR_FILE,
-             "-%s %s: %s of step %" PetscInt_FMT " has values that are no finite numbers", part->file->option,
-             part->file->filename, name, step);
+  SamFileCheck(part->file, wrong == 0, "%s of step %" PetscInt_FMT " has values that are no finite numbers", name,
+               step);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamResultsRead(SamResults r, PetscInt k, const char field[], double values[])
 {
-  const Part *const part = r->saved[k].part;
-  const PetscInt    n    = SamStressFieldFind(field);
-  Name              name;
+  const Saved *const at    = &r->saved[k];
+  const PetscInt     n     = SamStressFieldFind(field);
+  const SamBlock     block = {
+        3, {at->index, (hsize_t)r->grid->row_start, 0}, {1, (hsize_t)r->grid->rows, (hsize_t)r->grid->nx}};
+  char name[SAM_EXPECT_NAME];
 
   PetscFunctionBegin;
   (void)snprintf(name, sizeof(name), "/%s", field);
-  PetscCheck(n < SAM_STRESS_FIELDS && part->facts.has[n], r->grid->comm, SAM_ERR_FILE, "-%s %s: has no dataset %s",
-             part->file->option, part->file->filename, name);
-  PetscCall(SamFileBegin(part->file));
-  SamFileReadFrame(part->file, part->field[n], H5T_NATIVE_DOUBLE, r->saved[k].index, values);
-  PetscCall(SamFileEnd(part->file));
-  PetscCall(CheckFinite(part, r->grid->cells, values, name, r->saved[k].step));
+  SamFileCheck(at->part->file, n < SAM_STRESS_FIELDS && at->part->facts.has[n], "has no dataset %s", name);
+  PetscCall(ReadFinite(at->part, name, &block, at->step, values));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -616,18 +511,15 @@ const SamStateLayers *SamResultsGetLayers(SamResults r, PetscInt g)
 PetscErrorCode SamResultsReadLayer(SamResults r, PetscInt k, PetscInt g, PetscInt component, PetscInt layer,
                                    double values[])
 {
-  const Part *const part  = r->saved[k].part;
-  const SamBlock    block = {4,
-                             {r->saved[k].index, (hsize_t)layer, (hsize_t)r->grid->row_start, 0},
-                             {1, 1, (hsize_t)r->grid->rows, (hsize_t)r->grid->nx}};
-  Name              name;
+  const Saved *const at    = &r->saved[k];
+  const SamBlock     block = {4,
+                              {at->index, (hsize_t)layer, (hsize_t)r->grid->row_start, 0},
+                              {1, 1, (hsize_t)r->grid->rows, (hsize_t)r->grid->nx}};
+  char               name[SAM_EXPECT_NAME];
 
   PetscFunctionBegin;
-  PetscCall(SamFileBegin(part->file));
-  SamFileReadBlock(part->file, part->stress[g][component], H5T_NATIVE_DOUBLE, &block, values);
-  PetscCall(SamFileEnd(part->file));
-  NameStress(&part->facts.group[g], (int)component, name);
-  PetscCall(CheckFinite(part, r->grid->cells, values, name, r->saved[k].step));
+  (void)snprintf(name, sizeof(name), "/%s/%s", at->part->facts.group[g].name, SamLayerStresses[component]);
+  PetscCall(ReadFinite(at->part, name, &block, at->step, values));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -643,14 +535,12 @@ static const Part *PartOf(SamResults r, PetscInt step)
 /* Reads a value of a column of the history at a step, from 1. */
 static PetscErrorCode ReadNumber(const Part *part, const char column[], PetscInt step, double *value)
 {
-  char name[64];
+  const SamBlock block = {1, {(hsize_t)(step - (PetscInt)part->facts.first) - 1}, {1}};
+  char           name[SAM_EXPECT_NAME];
 
   PetscFunctionBegin;
   PetscCall(PetscSNPrintf(name, sizeof(name), "/history/%s", column));
-  PetscCall(SamFileBegin(part->file));
-  ReadSeries(part->file, name, (hsize_t)(step - (PetscInt)part->facts.first) - 1, 1, value);
-  PetscCall(SamFileEnd(part->file));
-  PetscCall(CheckFinite(part, 1, value, name, step));
+  PetscCall(ReadFinite(part, name, &block, step, value));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
