@@ -264,6 +264,33 @@ def test_damaged_columns_are_named(stress, contact):
         assert "/history/bulk2_stress_xx" in done.stderr
 
 
+@pytest.mark.parametrize(
+    "name, value, says",
+    [
+        (
+            "pressure",
+            np.zeros((56, 4, 5)),
+            "/pressure has a shape that does not fit the others: (56, 4, 5), expected (any",
+        ),
+        ("pressure", ["a"], "/pressure is not what petsam writes"),
+        ("pressure", None, "has no dataset /pressure"),
+        ("@grid_n", [16.5, 12], "number 0 of grid_n is 16.5: expected a whole number from 1 to 1000000000"),
+        ("@grid_n", [1, 12], "grid_n is 1 along x: expected 2 or more"),
+        ("@grid_size", [1e-3, np.inf], "number 1 of grid_size is inf: expected a number > 0"),
+        ("@grid_center", [np.nan, 0], "number 0 of grid_center is nan: expected a finite number"),
+    ],
+)
+def test_damaged_results_are_refused_with_what_is_expected(name, value, says, stress, contact):
+    def change(f):
+        of = f.attrs if name[0] == "@" else f
+        del of[name.strip("@")]
+        if value is not None:
+            of[name.strip("@")] = value
+
+    spoilt(contact, "damaged.h5", change)
+    assert says in stress(dict(input="damaged.h5", output="no.h5"), check=3).stderr
+
+
 def test_slip_is_needed_by_ruiz_only(stress, contact):
     def change(f):
         del f["slip_x"], f["slip_y"]

@@ -20,15 +20,12 @@
 
 /* ---- words ---- */
 
-/* True if PETSc takes a word for an option's name: a dash and a letter. A number such as -inf is a value. */
+/* True if PETSc takes a word for an option's name, and not for a number such as -inf. */
 static PetscBool IsOption(const char text[])
 {
-  const char *name = text[0] == '-' && text[1] == '-' ? text + 1 : text;
-  char       *end;
+  PetscBool is;
 
-  if (name[0] != '-' || !((name[1] >= 'a' && name[1] <= 'z') || (name[1] >= 'A' && name[1] <= 'Z'))) return PETSC_FALSE;
-  (void)strtod(name, &end);
-  return end == name || *end;
+  return !PetscOptionsValidKey(text, &is) && is;
 }
 
 /* Notes a mistake if it is the first one. */
@@ -64,20 +61,6 @@ static PetscBool IsNamed(const char word[], const char names[])
   return PETSC_FALSE;
 }
 
-static void ExamineFile(SamArguments *a, const char where[], const char file[], int depth);
-
-/* Examines an option and its value: the next word, or NULL; `where` is its place with a colon, or "". */
-static void ExamineOption(SamArguments *a, const char where[], const char option[], const char value[], int depth)
-{
-  if (IsNamed(option, refused))
-    Complain(a, SAM_ERR_USER, "%s%s: petsam does not support it here: remove it", where, option);
-  if (!IsNamed(option, "-options_file")) return;
-  if (!value || !value[0])
-    Complain(a, SAM_ERR_USER, "%s-options_file has no value: expected the name of a file", where);
-  else
-    ExamineFile(a, "-options_file ", value, depth + 1);
-}
-
 /* Splits a text, which is changed, into words separated by white space; like PETSc, keeps words in double quotes
    together. */
 static int Split(char text[], char *words[], int most)
@@ -98,12 +81,6 @@ static int Split(char text[], char *words[], int most)
     if (*text) *text++ = '\0';
   }
   return count;
-}
-
-/* Rejects a word where an option is expected: PETSc would ignore it. */
-static void CheckWord(SamArguments *a, const char where[], const char word[])
-{
-  if (!IsOption(word)) Complain(a, SAM_ERR_USER, "%s%.160s: expected an option: it begins with a dash", where, word);
 }
 
 /*
@@ -136,14 +113,33 @@ static void Keep(SamArguments *a, int source, const char where[], const char opt
   more[a->givens++] = one;
 }
 
+static void ExamineFile(SamArguments *a, const char where[], const char file[], int depth);
+
+/*
+  Examines an option and its value: the next word, or NULL; `where` is its place with a colon, or "". PETSc would ignore
+  a word where an option is expected.
+*/
+static void ExamineOption(SamArguments *a, int source, const char where[], const char option[], const char value[],
+                          int depth)
+{
+  if (!IsOption(option))
+    Complain(a, SAM_ERR_USER, "%s%.160s: expected an option: it begins with a dash", where, option);
+  Keep(a, source, where, option, value);
+  if (IsNamed(option, refused))
+    Complain(a, SAM_ERR_USER, "%s%s: petsam does not support it here: remove it", where, option);
+  if (!IsNamed(option, "-options_file")) return;
+  if (!value || !value[0])
+    Complain(a, SAM_ERR_USER, "%s-options_file has no value: expected the name of a file", where);
+  else
+    ExamineFile(a, "-options_file ", value, depth + 1);
+}
+
 static void ExamineWords(SamArguments *a, int source, const char where[], int count, char **words)
 {
   for (int k = 0; k < count; k++) {
     const char *option = words[k], *value = k + 1 < count && !IsOption(words[k + 1]) ? words[k + 1] : NULL;
 
-    CheckWord(a, where, option);
-    Keep(a, source, where, option, value);
-    ExamineOption(a, where, option, value, 0);
+    ExamineOption(a, source, where, option, value, 0);
     if (value) k++;
   }
 }
@@ -159,9 +155,7 @@ static void ExamineLine(SamArguments *a, int source, const char where[], char li
   for (int k = count; k-- > 0;)
     if (words[k][0] == '#') count = k; /* the rest is a comment */
   if (!count || strchr("!%", words[0][0])) return;
-  CheckWord(a, where, words[0]);
-  Keep(a, source, where, words[0], count > 1 ? words[1] : NULL);
-  ExamineOption(a, where, words[0], count > 1 ? words[1] : NULL, depth);
+  ExamineOption(a, source, where, words[0], count > 1 ? words[1] : NULL, depth);
 }
 
 static void ExamineLines(SamArguments *a, const char where[], const char name[], FILE *file, int depth)
@@ -349,30 +343,24 @@ const char *SamArgumentsFindPlace(const SamArguments *a, const char name[])
 PetscErrorCode SamArgumentsRefuseUnknown(MPI_Comm comm, const SamArguments *arguments)
 {
   /* Options that PETSc itself reads only in PetscFinalize(). */
-  static const char *const late[] = {"-malloc_dump",
-                                     "-malloc_view",
-                                     "-malloc_test",
-                                     "-malloc_debug",
-                                     "-log_view",
-                                     "-log_view_memory",
-                                     "-options_left",
-                                     "-options_view",
-                                     "-objects_dump",
-                                     "-memory_view",
-                                     "-get_total_flops",
-                                     "-petsc_finalize_time",
-                                     NULL};
-  PetscInt                 count;
-  char                   **names, **values;
-  char                     first[128] = "", name[64] = "";
-  const char              *nearest, *with, *place;
+  static const char late[] = "-malloc_dump -malloc_view -malloc_test -malloc_debug -log_view -log_view_memory "
+                             "-options_left -options_view -objects_dump -memory_view -get_total_flops "
+                             "-petsc_finalize_time";
+  int               lates;
+  char            **list;
+  PetscInt          count;
+  char            **names, **values;
+  char              first[128] = "", name[64] = "";
+  const char       *nearest, *with, *place;
 
   PetscFunctionBegin;
-  for (PetscInt k = 0; arguments && late[k]; k++) {
+  PetscCall(PetscStrToArray(late, ' ', &lates, &list));
+  for (int k = 0; arguments && k < lates; k++) {
     PetscBool ignored;
 
-    PetscCall(PetscOptionsHasName(NULL, NULL, late[k], &ignored));
+    PetscCall(PetscOptionsHasName(NULL, NULL, list[k], &ignored));
   }
+  PetscCall(PetscStrToArrayDestroy(lates, list));
   PetscCall(PetscOptionsLeftGet(NULL, &count, &names, &values));
   if (count) {
     PetscCall(

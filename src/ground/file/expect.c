@@ -53,9 +53,13 @@ static void PrintShape(int rank, const hsize_t size[], int grows, char text[], s
   size_t used = (size_t)snprintf(text, most, "(");
 
   for (int d = 0; d < rank && used < most; d++) {
-    used += (size_t)snprintf(text + used, most - used, size[d] == SAM_ANY ? "%sany" : "%s%llu", d ? ", " : "",
-                             (unsigned long long)size[d]);
-    if (d == 0 && grows && used < most) used += (size_t)snprintf(text + used, most - used, " or more");
+    const PetscBool longer = d == 0 && grows, any = size[d] == SAM_ANY || (longer && !size[d]);
+
+    used += (size_t)snprintf(text + used, most - used,
+                             any      ? "%sany"
+                             : longer ? "%s%llu or more"
+                                      : "%s%llu",
+                             d ? ", " : "", (unsigned long long)size[d]);
   }
   if (used < most) (void)snprintf(text + used, most - used, ")");
 }
@@ -100,8 +104,9 @@ static PetscErrorCode ExamineDataset(SamFile f, const SamFileKind *kind, const c
   PetscCall(CheckShape(f, name, row, H5Dget_space(dataset)));
   for (int d = 0; d < row->rank; d++) count *= extent[d] = d == 0 && row->grows ? rows : row->size[d];
   SamFileCheck(f,
-               SamFileIsWhole(f, dataset, extent, PETSC_TRUE) &&
-                 (!row->values || H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, row->values) >= 0),
+               count == 0 || (SamFileIsWhole(f, dataset, extent, PETSC_TRUE) &&
+                              (!row->values ||
+                               H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, row->values) >= 0)),
                "the numbers of %s cannot be read: the file is damaged", name);
   if (row->values) PetscCall(CheckNumbers(f, name, row, count));
   (void)H5Tclose(type);
