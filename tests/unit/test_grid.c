@@ -3,6 +3,7 @@
 */
 #include "fields.h"
 #include <petsam/private/grid.h>
+#include <petsam/private/pool.h>
 
 /* Even, odd, prime, and fewer rows than ranks. */
 static const PetscInt sizes[][2] = {{16, 12}, {13, 7}, {9, 2}, {3, 3}, {31, 17}, {8, 4}, {5, 16}};
@@ -451,6 +452,41 @@ static void test_support_is_the_smallest_rectangle_of_positive_cells(void **stat
   sam_call(SamGridDestroy(&grid));
 }
 
+/* A field that has been given back is the next one's; it needs the pool no other way. */
+static void test_a_pool_lends_what_it_has_got_back(void **state)
+{
+  SamGrid        grid = NewGrid(5, 4, 1, 1);
+  SamPool        pool = NULL;
+  Vec            field[2], again, many[12], another, own;
+  const PetscInt all = 5 * 4;
+  PetscInt       size;
+
+  (void)state;
+  sam_call(SamPoolCreate(grid, &pool));
+  for (int k = 0; k < 2; k++) sam_call(SamPoolTake(pool, &field[k]));
+  sam_assert(field[0] != field[1]);
+  sam_call(VecGetSize(field[1], &size));
+  sam_assert(size == all);
+  many[0] = field[0];
+  sam_call(SamPoolGive(pool, &field[0]));
+  sam_assert(!field[0]);
+  sam_call(SamPoolTake(pool, &again));
+  sam_assert(again == many[0]);
+  for (int k = 0; k < 10; k++) sam_call(SamPoolTake(pool, &many[k]));
+  sam_says(SamPoolTake(pool, &another), PETSC_ERR_ARG_OUTOFRANGE, "All 12 fields");
+  sam_call(SamGridCreateVec(grid, 1, &own));
+  another = own;
+  sam_says(SamPoolGive(pool, &another), PETSC_ERR_ARG_WRONG, "not one that the pool has lent");
+  another = many[3];
+  sam_call(SamPoolGive(pool, &many[3]));
+  sam_says(SamPoolGive(pool, &another), PETSC_ERR_ARG_WRONG, "not one that the pool has lent");
+  sam_call(VecDestroy(&own));
+  sam_call(SamPoolDestroy(&pool));
+  sam_assert(!pool);
+  sam_call(SamPoolDestroy(&pool));
+  sam_call(SamGridDestroy(&grid));
+}
+
 int main(int argc, char **argv)
 {
   const struct CMUnitTest tests[] = {
@@ -468,6 +504,7 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_window_takes_its_cells_and_puts_them_back),
     cmocka_unit_test(test_window_knows_what_it_covers),
     cmocka_unit_test(test_support_is_the_smallest_rectangle_of_positive_cells),
+    cmocka_unit_test(test_a_pool_lends_what_it_has_got_back),
   };
 
   return SamTestMain(argc, argv, tests, sizeof(tests) / sizeof(tests[0]));

@@ -5,6 +5,7 @@
 #include <petsam/contact.h>
 #include <petsam/gap.h>
 #include <petsam/private/life.h>
+#include <petsam/private/objective.h>
 
 /* Largest tolerance of its systems: at 0.1, derivatives of a fretting loop are wrong by 10 % */
 #define SAM_GRADIENT_LOOSEST 0.01
@@ -104,14 +105,29 @@ PETSC_INTERN void SamGradientForget(SamGradient gradient);
 PETSC_INTERN PetscInt SamGradientGetSteps(SamGradient gradient);
 
 /*
+  SamGradientGoal - a number that has a gradient, as SamGradientFind() has found it by its name.
+*/
+typedef struct {
+  const char         *name; /* with what follows an @; borrowed */
+  const SamObjective *objective;
+  PetscInt            component; /* of a load or displacement; -1: it is none */
+  PetscBool           load;      /* true: it is a load */
+} SamGradientGoal;
+
+/*
+  SamGradientFind - finds a number by its name: energy (J), wear_volume (m3), pressure_norm (Pa), a load (N, N m) or a
+  displacement (m, rad), a smooth maximum like stress_xx@50um@1, or another objective that SamObjectiveRegister() has
+  added. Not collective. Errors: SAM_ERR_USER for another name, with what is expected.
+*/
+PETSC_INTERN PetscErrorCode SamGradientFind(MPI_Comm comm, const char name[], SamGradientGoal *goal);
+
+/*
   SamGradientCompute - computes a number of the recorded steps and its derivatives.
 
   Collective.
 
   In:     gradient - the gradient
-          name     - the number: energy (J), wear_volume (m3), pressure_norm (Pa), a load (N, N m) or a displacement (m,
-                     rad) that is not given, a smooth maximum like stress_xx@50um@1, or another objective that
-                     SamObjectiveRegister() has added
+          goal     - the number; a load or a displacement must not be given in these steps
           steps    - the first and the last step, from 0; -1, -1: all of an energy, else the last one
           of       - names of the wanted parameters, separated by commas: gap, friction, those of steps like load_tx,
                      wear_coefficient, wear_energy, body1_young and other moduli, at some more products a step, and
@@ -124,8 +140,8 @@ PETSC_INTERN PetscInt SamGradientGetSteps(SamGradient gradient);
 
   See also: SamGradientGetField(), SamGradientGetNumber().
 */
-PETSC_INTERN PetscErrorCode SamGradientCompute(SamGradient gradient, const char name[], const PetscInt steps[2],
-                                               const char of[], PetscReal rtol);
+PETSC_INTERN PetscErrorCode SamGradientCompute(SamGradient gradient, const SamGradientGoal *goal,
+                                               const PetscInt steps[2], const char of[], PetscReal rtol);
 
 /*
   SamGradientGetField - copies a field of derivatives.
@@ -177,16 +193,10 @@ PETSC_INTERN PetscErrorCode SamGradientGetNumber(SamGradient gradient, const cha
 
 /*
   SamGradientCheck - checks that a number has a gradient for this contact by wanted parameters (above), and is not given
-  itself in a step whose loads `force` are; `component`: that of a load or displacement, else -1. Not collective.
-  Errors: SAM_ERR_USER.
+  itself in a step whose loads `force` are. Not collective. Errors: SAM_ERR_USER.
 */
-PETSC_INTERN PetscErrorCode SamGradientCheck(SamGradient gradient, const char name[], const PetscBool force[],
-                                             const char of[], PetscInt *component);
-/*
-  SamGradientGetBytes - gets the memory of a number, see SamObjective, bytes per cell. Not collective. Errors:
-  SAM_ERR_USER for an unknown number.
-*/
-PETSC_INTERN PetscErrorCode SamGradientGetBytes(MPI_Comm comm, const char name[], PetscInt bytes[3]);
+PETSC_INTERN PetscErrorCode SamGradientCheck(SamGradient gradient, const SamGradientGoal *goal, const PetscBool force[],
+                                             const char of[]);
 /*
   SamGradientDescribe - writes the number, and the relative changes of it by relative changes of the parameters, the
   largest first: "energy 2.04e-05 J; by 1 % more friction -1.2 %, load_tx +3.1 %". Values of all steps of a load change

@@ -30,7 +30,8 @@ typedef struct {
   SamState    cycles;       /* state whose numbers give a second series; borrowed */
   const char *cycles_name;  /* group of the second series; borrowed; NULL: none */
   PetscBool   errors;       /* true: errors of the numbers will be written */
-  const char *gradients;    /* names of the numbers whose gradients will be written, by commas; borrowed; NULL: none */
+  int         gradients;    /* number of the numbers whose gradients will be written */
+  char      **gradient;     /* their names; borrowed */
 } SamOutputSettings;
 /*
   SamOutputSettingsSetFromOptions - sets the defaults (the usual fields, no compression, chunks of 1024 x 256 cells,

@@ -29,14 +29,16 @@ static PetscErrorCode GetRecorded(petsam_contact *c, SamGradient *g)
 static PetscErrorCode Compute(petsam_contact *c, const char name[], int first, int last, const char of[], double rtol,
                               int *steps, const char **unit)
 {
-  const PetscInt range[] = {first, last};
-  SamGradient    g;
+  const PetscInt  range[] = {first, last};
+  SamGradient     g;
+  SamGradientGoal goal;
 
   PetscFunctionBegin;
   PetscCall(GetRecorded(c, &g));
   PetscCheck(rtol > 0 && rtol <= SAM_GRADIENT_LOOSEST, c->comm, SAM_ERR_USER,
              "the gradient of %s: rtol %.6g: expected a number > 0 and <= %.6g", name, rtol, SAM_GRADIENT_LOOSEST);
-  PetscCall(SamGradientCompute(g, name, range, of, (PetscReal)rtol));
+  PetscCall(SamGradientFind(c->comm, name, &goal));
+  PetscCall(SamGradientCompute(g, &goal, range, of, (PetscReal)rtol));
   *steps = (int)SamGradientGetSteps(g);
   if (unit) *unit = SamGradientUnit(g);
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -56,6 +58,7 @@ int petsam_gradient(petsam_contact *c, const char *name, int first, int last, co
 static PetscErrorCode Get(petsam_contact *c, const char name[], double values[])
 {
   SamGradient   g;
+  PetscInt      steps;
   const double *cells;
 
   PetscFunctionBegin;
@@ -67,7 +70,8 @@ static PetscErrorCode Get(petsam_contact *c, const char name[], double values[])
     PetscCall(VecRestoreArrayRead(c->work, &cells));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
-  for (PetscInt k = 0; k == 0 || (SamGradientIsOfSteps(name) && k < SamGradientGetSteps(g)); k++) {
+  steps = SamGradientIsOfSteps(name) ? SamGradientGetSteps(g) : 1;
+  for (PetscInt k = 0; k == 0 || k < steps; k++) {
     PetscReal value;
 
     PetscCall(SamGradientGetNumber(g, name, k, &value)); /* it rejects the first step if there is no gradient */

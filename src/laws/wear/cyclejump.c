@@ -38,7 +38,7 @@
   { \
     &(l)->start.coefficient, &(l)->start.pressure, &(l)->start.shift, &(l)->middle.coefficient, &(l)->middle.pressure, \
       &(l)->middle.shift, &(l)->load[0], &(l)->load[1], &(l)->whole[0], &(l)->whole[1], &(l)->half[0], &(l)->half[1], \
-      &(l)->halves[0], &(l)->halves[1], &(l)->p, &(l)->q, &(l)->diagonal, &(l)->gap, NULL \
+      &(l)->halves[0], &(l)->halves[1], NULL \
   }
 
 /* Finds the law of wear of the life's problem; rejects laws that cycle jumps do not support. */
@@ -83,13 +83,12 @@ PetscErrorCode SamLifeCreate(SamContact contact, const SamLifeCycle *cycle, cons
   PetscCall(SamContactGetState(contact, &l->memory));
   PetscCall(SamLifeDeclare(l));
   for (Vec **field = (Vec *[])FIELDS(l); *field; field++) PetscCall(SamGridCreateVec(grid, 1, *field));
-  PetscCall(SamGridCreateVec(grid, 2, &l->shear));
+  PetscCall(SamPoolCreate(grid, &l->pool));
   l->cycle      = *cycle;
   l->set        = *settings;
   l->state.next = settings->jump;
   l->band       = SamContactGetMotion(contact)->streams;
   l->open       = !l->band;
-  if (l->band) PetscCall(SamGridCreateVec(grid, 1, &l->passage));
   l->lifts = SamElasticityGetTraits(SamProblemGetElasticity(l->problem)).coupled || SamProblemDisplaces(l->problem);
   PetscCheck(settings->magnified || !SamProblemGetOffset(problem, l->memory, SAM_COMMITTED, 1, slide), grid->comm,
              PETSC_ERR_ARG_INCOMP, "Surfaces that slide need magnified cycles");
@@ -120,8 +119,7 @@ PetscErrorCode SamLifeDestroy(SamLife *life)
   SamLifeEnd(l);
   PetscCall(SamStateDestroy(&l->series));
   for (Vec **field = (Vec *[])FIELDS(l); *field; field++) PetscCall(VecDestroy(*field));
-  PetscCall(VecDestroy(&l->shear));
-  PetscCall(VecDestroy(&l->passage));
+  PetscCall(SamPoolDestroy(&l->pool));
   PetscCall(VecDestroy(&l->stripes));
   for (PetscInt k = 0; k < SAM_LAWS; k++) PetscCall(VecDestroy(&l->before[k]));
   PetscCall(SamLifeDropStrain(&l->strain));
@@ -149,63 +147,76 @@ PetscErrorCode SamLifeSetState(SamLife l, const SamLifeState *state)
 
 /* ---- jumps ---- */
 
-/* Computes the mean pressure l->p after `cycles` more at a rate, from the wear load `load` on. */
-static PetscErrorCode SolvePressure(SamLife l, const SamRate *rate, PetscReal cycles, const SamLoads load,
+/* Computes the mean pressure (Pa) after `cycles` more at a rate, from the wear load `load` on. */
+static PetscErrorCode SolvePressure(SamLife l, const SamRate *rate, PetscReal cycles, const SamLoads load, Vec pressure,
                                     PetscBool *solved)
 {
   const SamWear *w = (const SamWear *)l->law->data;
+  Vec            gap, yield;
 
   PetscFunctionBegin;
+  PetscCall(SamPoolTake(l->pool, &gap));
+  PetscCall(SamPoolTake(l->pool, &yield));
   PetscCall(SamLifeSetLoads(l, load));
-  PetscCall(VecCopy(SamProblemGetGap(l->problem), l->gap));
-  PetscCall(SamProblemAddSeparation(l->problem, l->memory, SAM_COMMITTED, l->gap, NULL));
-  PetscCall(VecAXPY(l->gap, 1, rate->shift));
-  PetscCall(VecCopy(rate->coefficient, l->diagonal));
-  PetscCall(VecScale(l->diagonal, cycles * (w->coefficient[0] + w->coefficient[1])));
-  PetscCall(SamLifeSolveNormal(l, rate->balance, cycles, PETSC_FALSE, l->p, solved));
+  PetscCall(VecCopy(SamProblemGetGap(l->problem), gap));
+  PetscCall(SamProblemAddSeparation(l->problem, l->memory, SAM_COMMITTED, gap, NULL));
+  PetscCall(VecAXPY(gap, 1, rate->shift));
+  PetscCall(VecCopy(rate->coefficient, yield));
+  PetscCall(VecScale(yield, cycles * (w->coefficient[0] + w->coefficient[1])));
+  PetscCall(SamLifeSolveNormal(l, gap, yield, rate->balance, cycles, PETSC_FALSE, pressure, solved));
+  PetscCall(SamPoolGive(l->pool, &yield));
+  PetscCall(SamPoolGive(l->pool, &gap));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* Tells of a part of a jump. */
-static PetscErrorCode Tell(SamLife l, const SamRate *rate, PetscReal cycles, const SamLoads load, const SamLoads to)
+static PetscErrorCode Tell(SamLife l, const SamRate *rate, PetscReal cycles, const SamLoads load, Vec pressure,
+                           const SamLoads to)
 {
   const SamLifePartKind kind = to == l->whole  ? SAM_LIFE_WHOLE
                                : to == l->half ? SAM_LIFE_FIRST_HALF
                                                : SAM_LIFE_SECOND_HALF;
-  const SamLifePart     part = {kind, cycles, &rate->balance, rate->coefficient, rate->pressure, l->p, load[0], to[0]};
+  const SamLifePart part = {kind, cycles, &rate->balance, rate->coefficient, rate->pressure, pressure, load[0], to[0]};
 
   PetscFunctionBegin;
   PetscCall(l->cycle.jumps(l->cycle.context, &part));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Computes the wear loads `to` after `cycles` more at a rate, from `load` on; l->p: the mean pressure, if it wears. */
+/*
+  Computes the wear loads `to` after `cycles` more at a rate, from `load` on, and the mean pressure after them (Pa); of
+  magnified cycles there is none.
+*/
 static PetscErrorCode Jump(SamLife l, const SamRate *rate, PetscReal cycles, const SamLoads load, SamLoads to,
-                           PetscBool *solved)
+                           Vec pressure, PetscBool *solved)
 {
   PetscFunctionBegin;
   if (rate->passes) {
     PetscCall(SamLifeMagnify(l, rate, cycles, load, to, solved));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
-  PetscCall(SolvePressure(l, rate, cycles, load, solved));
-  PetscCall(VecCopy(l->p, to[0]));
+  PetscCall(SolvePressure(l, rate, cycles, load, pressure, solved));
+  PetscCall(VecCopy(pressure, to[0]));
   if (l->band) PetscCall(SamLifeIntegrate(l->grid, to[0]));
   PetscCall(VecPointwiseMult(to[0], rate->coefficient, to[0]));
   PetscCall(VecAYPX(to[0], cycles, load[0]));
-  if (*solved && l->cycle.jumps) PetscCall(Tell(l, rate, cycles, load, to));
+  if (*solved && l->cycle.jumps) PetscCall(Tell(l, rate, cycles, load, pressure, to));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* Computes the difference of two fields in a norm, relative to the second field, or to a larger size. */
-static PetscErrorCode RelativeDifference(SamLife l, Vec a, Vec b, NormType norm, PetscReal least, PetscReal *error)
+static PetscErrorCode RelativeDifference(SamGrid grid, SamPool pool, Vec a, Vec b, NormType norm, PetscReal least,
+                                         PetscReal *error)
 {
   PetscReal difference, size;
+  Vec       change;
 
   PetscFunctionBegin;
-  PetscCall(VecWAXPY(l->diagonal, -1, a, b));
-  PetscCall(SamGridNorm(l->grid, l->diagonal, norm, &difference));
-  PetscCall(SamGridNorm(l->grid, b, norm, &size));
+  PetscCall(SamPoolTake(pool, &change));
+  PetscCall(VecWAXPY(change, -1, a, b));
+  PetscCall(SamGridNorm(grid, change, norm, &difference));
+  PetscCall(SamGridNorm(grid, b, norm, &size));
+  PetscCall(SamPoolGive(pool, &change));
   size   = PetscMax(size, least);
   *error = size > 0 ? difference / size : 0;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -274,10 +285,33 @@ static PetscErrorCode FinishJump(SamLife l, PetscReal least, PetscReal *error)
     PetscReal       depth;
 
     if (unit == 0) continue; /* the bodies' surfaces do not wear */
-    PetscCall(RelativeDifference(l, l->whole[k], l->halves[k], NORM_2, least / unit, &depth));
+    PetscCall(RelativeDifference(l->grid, l->pool, l->whole[k], l->halves[k], NORM_2, least / unit, &depth));
     *error = PetscMax(*error, depth);
   }
   for (PetscInt k = 0; k < l->loads; k++) PetscCall(SamLifeExtrapolate(l->grid, l->load[k], l->whole[k], l->halves[k]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/*
+  Makes a jump in halves after it has been made as a whole, which ends under the mean pressure `once` (Pa); `pressure`:
+  the relative difference of the pressures at the end. The pressure after a half is needed only until the next one.
+*/
+static PetscErrorCode JumpHalves(SamLife l, PetscReal cycles, Vec once, PetscReal *pressure, PetscBool *solved)
+{
+  Vec twice; /* Pa */
+
+  PetscFunctionBegin;
+  PetscCall(SamPoolTake(l->pool, &twice));
+  PetscCall(Jump(l, &l->start, 0.5 * cycles, l->load, l->half, twice, solved));
+  PetscCall(SamPoolGive(l->pool, &twice));
+  if (*solved) PetscCall(SamLifeSetLoads(l, l->half));
+  if (*solved) PetscCall(SamLifeComputeRate(l, &l->middle, l->state.cycles + 0.5 * cycles, PETSC_FALSE, solved));
+  if (!*solved) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamPoolTake(l->pool, &twice));
+  PetscCall(Jump(l, &l->middle, 0.5 * cycles, l->half, l->halves, twice, solved));
+  *pressure = l->apart;
+  if (*solved && !l->set.magnified) PetscCall(RelativeDifference(l->grid, l->pool, once, twice, NORM_1, 0, pressure));
+  PetscCall(SamPoolGive(l->pool, &twice));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -289,19 +323,16 @@ static PetscErrorCode FinishJump(SamLife l, PetscReal least, PetscReal *error)
 */
 static PetscErrorCode TryJump(SamLife l, PetscReal cycles, PetscReal *error, PetscBool *solved)
 {
-  PetscReal depth, pressure, least = 0;
+  PetscReal depth, pressure = 0, least = 0;
+  Vec       once;
 
   PetscFunctionBegin;
   PetscCall(LeastDepth(l, &least));
-  PetscCall(Jump(l, &l->start, cycles, l->load, l->whole, solved));
-  if (*solved) PetscCall(VecCopy(l->p, l->q));
-  if (*solved) PetscCall(Jump(l, &l->start, 0.5 * cycles, l->load, l->half, solved));
-  if (*solved) PetscCall(SamLifeSetLoads(l, l->half));
-  if (*solved) PetscCall(SamLifeComputeRate(l, &l->middle, l->state.cycles + 0.5 * cycles, PETSC_FALSE, solved));
-  if (*solved) PetscCall(Jump(l, &l->middle, 0.5 * cycles, l->half, l->halves, solved));
+  PetscCall(SamPoolTake(l->pool, &once));
+  PetscCall(Jump(l, &l->start, cycles, l->load, l->whole, once, solved));
+  if (*solved) PetscCall(JumpHalves(l, cycles, once, &pressure, solved));
+  PetscCall(SamPoolGive(l->pool, &once));
   if (!*solved) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(RelativeDifference(l, l->q, l->p, NORM_1, 0, &pressure));
-  if (l->set.magnified) pressure = l->apart;
   PetscCall(FinishJump(l, least, &depth));
   *error = PetscMax(depth, pressure);
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -3,6 +3,7 @@
 #define PETSAM_LIFEIMPL_H
 
 #include <petsam/private/life.h>
+#include <petsam/private/pool.h>
 #include <petsam/private/problemimpl.h>
 #include "wearimpl.h"
 
@@ -18,7 +19,7 @@ typedef struct {
 
 /*
   The rate of wear by a computed cycle. `pressure` is the mean over the cycle's steps, and solves the normal
-  problem of the mean loads on the gap h + shift.
+  problem of the mean loads on the gap h + shift. Magnified cycles use `coefficient`, `limit` and `passes` only.
 */
 typedef struct {
   Vec        coefficient; /* wear load of a cycle per mean pressure, m; of a band per its integral along x, 1 */
@@ -28,6 +29,15 @@ typedef struct {
   PetscReal  limit;   /* cycles that wear as much as a single step may; infinite without wear */
   SamPass   *passes;  /* one for each step; NULL: jumps need only the means */
 } SamRate;
+
+/* What is summed up over the steps of a cycle; fields have one component, and are lent by the life's pool. */
+typedef struct {
+  SamControl control; /* means of its values; the rest is that of the last step */
+  Vec        gap;     /* mean of the gaps, m; NULL in magnified cycles */
+  Vec        lift;    /* mean of u_z, m; NULL unless surfaces are lifted, and in magnified cycles */
+  Vec        passage; /* of a band: its wear load of the cycle, Pa m, the same along a line; else NULL */
+  Vec        before;  /* in magnified cycles: the pressure before the next step, Pa; else NULL */
+} SamMeans;
 
 /* The wear loads of a contact: one for both bodies, or one for each. */
 #define SAM_WEAR_LOADS 2
@@ -65,9 +75,7 @@ struct _n_SamLife {
   PetscInt        loads;               /* number of wear loads of the contact */
   SamLoads        load;                /* wear loads so far; within a jump the law has others */
   SamLoads        whole, half, halves; /* after the jump as a whole, after its first half, after both */
-  Vec             p, q, diagonal, gap; /* scratch */
-  Vec             passage;             /* the wear load of a band in the cycle, Pa m; else NULL */
-  Vec             shear;               /* scratch, two components */
+  SamPool         pool;                /* fields that functions take for their own use */
   Vec             before[SAM_LAWS];    /* of each law that accumulates, its sum before this cycle; else NULL */
   SamStrainKept   strain;              /* the strain before the computed cycle, then before the jump */
   PetscReal       flow;                /* change of the strain in the computed cycle, relative to its maximum */
@@ -91,29 +99,28 @@ PETSC_INTERN PetscErrorCode SamLifeComputeRate(SamLife life, SamRate *rate, Pets
 PETSC_INTERN PetscErrorCode SamLifeGetLoads(SamLife life, SamLoads loads);
 PETSC_INTERN PetscErrorCode SamLifeSetLoads(SamLife life, const SamLoads loads);
 /*
-  SamLifeSolveNormal - solves for the pressure p on the gap l->gap of surfaces that yield by l->diagonal; if `guess` is
-  true, the values in p are the start. A failure is reported as that of a jump of `cycles`. Collective.
+  SamLifeSolveNormal - solves for the pressure p (Pa) on a gap (m) of surfaces that `yield` under it (m/Pa); if `guess`
+  is true, the values in p are the start. A failure is reported as that of a jump of `cycles`. Collective.
 */
-PETSC_INTERN PetscErrorCode SamLifeSolveNormal(SamLife life, SamBalance balance, PetscReal cycles, PetscBool guess,
-                                               Vec p, PetscBool *solved);
+PETSC_INTERN PetscErrorCode SamLifeSolveNormal(SamLife life, Vec gap, Vec yield, SamBalance balance, PetscReal cycles,
+                                               PetscBool guess, Vec p, PetscBool *solved);
 
 /*
   Magnified cycles (magnified.c).
   SamRateCreatePasses, SamRateDestroyPasses - create and destroy the memory for the steps of a cycle.
-  SamLifeNotePass - keeps a tried step; rate->pressure: the pressure before it, then that at its end.
+  SamLifeNotePass - keeps a tried step; `before`: the pressure before it, then that at its end, Pa.
   SamLifeMagnify - computes the wear loads `to` after `cycles` more, from `from` on. If `to` is l->whole, the pressures
   are stored; if it is l->halves, l->apart is the difference from these. All collective.
 */
 PETSC_INTERN PetscErrorCode SamRateCreatePasses(SamLife life, SamRate *rate);
 PETSC_INTERN PetscErrorCode SamRateDestroyPasses(SamLife life, SamRate *rate);
-PETSC_INTERN PetscErrorCode SamLifeNotePass(SamLife life, PetscInt k, const SamStep *step, SamRate *rate);
+PETSC_INTERN PetscErrorCode SamLifeNotePass(SamLife life, PetscInt k, const SamStep *step, Vec before, SamRate *rate);
 PETSC_INTERN PetscErrorCode SamLifeMagnify(SamLife life, const SamRate *rate, PetscReal cycles, const SamLoads from,
                                            SamLoads to, PetscBool *solved);
 /*
   Steps that slide far (longslides.c).
-  SamLifeBeginStrides - begins a cycle. SamLifeNoteStride - notes a tried step with this wear load and these pressures
-  before and after it, with l->p and the loads of a jump as scratch. SamLifeEndStrides - sets l->stripes_error.
-  Collective.
+  SamLifeBeginStrides - begins a cycle. SamLifeNoteStride - notes a tried step with this wear load (Pa m, or J/m2) and
+  these pressures before and after it (Pa). SamLifeEndStrides - sets l->stripes_error. Collective.
 */
 PETSC_INTERN PetscErrorCode SamLifeBeginStrides(SamLife life);
 PETSC_INTERN PetscErrorCode SamLifeNoteStride(SamLife life, Vec load, Vec before, Vec after);
@@ -132,8 +139,14 @@ PETSC_INTERN PetscErrorCode SamLifeRestoreStrain(SamLife life, SamStrainKept *ke
 PETSC_INTERN PetscErrorCode SamLifeFindFlow(SamLife life, const SamStrainKept *before);
 PETSC_INTERN PetscReal      SamLifeMostCycles(SamLife life);
 PETSC_INTERN PetscErrorCode SamLifeDropStrain(SamStrainKept *kept);
-/* SamLifeGetSum - gets the committed values that law k accumulates; NULL: none. Collective. */
+/*
+  SamLifeGetSum - gets the committed values that law k accumulates; NULL: none. SamLifeBeginSums - continues these sums
+  from those before the cycle; in the middle of a jump they start from 0. SamLifeRemembered - gets the committed values
+  of a field that the law of wear stores. Collective.
+*/
 PETSC_INTERN PetscErrorCode SamLifeGetSum(SamLife life, PetscInt k, Vec *sum);
+PETSC_INTERN PetscErrorCode SamLifeBeginSums(SamLife life, PetscBool middle);
+PETSC_INTERN PetscErrorCode SamLifeRemembered(SamLife life, const char name[], Vec *field);
 
 /* SamLifeIntegrate - replaces a field by its integral along x, the same in all cells of a line. Not collective. */
 PETSC_INTERN PetscErrorCode SamLifeIntegrate(SamGrid grid, Vec field);

@@ -114,14 +114,18 @@ PetscErrorCode SamWearAdviseStride(PetscReal stride, char text[], size_t size)
 /* Adds `scale` times `field`, at the points of body 2 under it at a slide, to the difference at body 2's own points. */
 static PetscErrorCode Write(SamLife l, const PetscReal slide[2], PetscReal scale, Vec field)
 {
+  Vec written;
+
   PetscFunctionBegin;
-  PetscCall(SamFramesWrite(SamProblemGetElasticity(l->problem), slide, field, l->p));
-  PetscCall(VecAXPY(l->stripes, scale, l->p));
+  PetscCall(SamPoolTake(l->pool, &written));
+  PetscCall(SamFramesWrite(SamProblemGetElasticity(l->problem), slide, field, written));
+  PetscCall(VecAXPY(l->stripes, scale, written));
+  PetscCall(SamPoolGive(l->pool, &written));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* Divides a step's load into the part due to the pressure before it, `first`, and the `rest`. */
-static PetscErrorCode Divide(SamLife l, Vec load, Vec before, Vec after, Vec first, Vec rest)
+static PetscErrorCode Divide(SamGrid grid, Vec load, Vec before, Vec after, Vec first, Vec rest)
 {
   const double *p0, *p1, *worn;
   double       *to;
@@ -131,10 +135,10 @@ static PetscErrorCode Divide(SamLife l, Vec load, Vec before, Vec after, Vec fir
   PetscCall(VecGetArrayRead(after, &p1));
   PetscCall(VecGetArrayRead(load, &worn));
   PetscCall(VecGetArrayWrite(first, &to));
-  for (PetscInt k = 0; k < l->grid->cells; k++) to[k] = p0[k] + p1[k] > 0 ? fabs(worn[k]) * p0[k] / (p0[k] + p1[k]) : 0;
+  for (PetscInt k = 0; k < grid->cells; k++) to[k] = p0[k] + p1[k] > 0 ? fabs(worn[k]) * p0[k] / (p0[k] + p1[k]) : 0;
   PetscCall(VecRestoreArrayWrite(first, &to));
   PetscCall(VecGetArrayWrite(rest, &to));
-  for (PetscInt k = 0; k < l->grid->cells; k++) to[k] = p0[k] + p1[k] > 0 ? fabs(worn[k]) * p1[k] / (p0[k] + p1[k]) : 0;
+  for (PetscInt k = 0; k < grid->cells; k++) to[k] = p0[k] + p1[k] > 0 ? fabs(worn[k]) * p1[k] / (p0[k] + p1[k]) : 0;
   PetscCall(VecRestoreArrayWrite(rest, &to));
   PetscCall(VecRestoreArrayRead(load, &worn));
   PetscCall(VecRestoreArrayRead(after, &p1));
@@ -154,7 +158,7 @@ PetscErrorCode SamLifeBeginStrides(SamLife l)
 
 PetscErrorCode SamLifeNoteStride(SamLife l, Vec load, Vec before, Vec after)
 {
-  Vec       first = l->half[0], rest = l->halves[0];
+  Vec       first, rest;
   PetscReal from[2], to[2], stride;
   PetscInt  n;
 
@@ -166,7 +170,9 @@ PetscErrorCode SamLifeNoteStride(SamLife l, Vec load, Vec before, Vec after)
   l->stride = PetscMax(l->stride, stride);
   PetscCall(FindTip(SamProblemGetElasticity(l->problem), after, from, to, &l->tip));
   n = (PetscInt)PetscMin(PetscMax(ceil(PLACES * stride), 2), MOST_PLACES);
-  PetscCall(Divide(l, load, before, after, first, rest));
+  PetscCall(SamPoolTake(l->pool, &first));
+  PetscCall(SamPoolTake(l->pool, &rest));
+  PetscCall(Divide(l->grid, load, before, after, first, rest));
   PetscCall(Write(l, from, 1, first));
   PetscCall(Write(l, to, 1, rest));
   for (PetscInt k = 0; k < n; k++) {
@@ -176,6 +182,8 @@ PetscErrorCode SamLifeNoteStride(SamLife l, Vec load, Vec before, Vec after)
     PetscCall(Write(l, middle, -2 * (1 - t) / (PetscReal)n, first));
     PetscCall(Write(l, middle, -2 * t / (PetscReal)n, rest));
   }
+  PetscCall(SamPoolGive(l->pool, &rest));
+  PetscCall(SamPoolGive(l->pool, &first));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -16,8 +16,6 @@
   contact have the e of the nearest line with contact.
 */
 #include "lifeimpl.h"
-#include <petsam/private/normal.h>
-#include <petsam/private/solver.h>
 #include <petsam/private/motionimpl.h>
 #include <petsam/private/state.h>
 #include <petsam/private/balance.h>
@@ -69,96 +67,63 @@ PetscErrorCode SamLifeFindTurns(SamLife l)
 
 /* ---- means over the cycle ---- */
 
-PetscErrorCode SamLifeGetSum(SamLife l, PetscInt k, Vec *sum)
+/* Takes a field for a sum over the steps. */
+static PetscErrorCode BeginMean(SamLife l, PetscBool needed, Vec *mean)
 {
-  const SamLaw *laws;
-  PetscInt      count;
-
   PetscFunctionBegin;
-  *sum = NULL;
-  PetscCall(SamProblemGetLaws(l->problem, &count, &laws));
-  if (k < count && laws[k]->accumulates)
-    PetscCall(SamStateRestoreField(l->memory, SamStateFindField(l->memory, laws[k]->type), SAM_COMMITTED, sum));
+  *mean = NULL;
+  if (!needed) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamPoolTake(l->pool, mean));
+  PetscCall(VecSet(*mean, 0));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Continues the sums over the steps from those before the cycle; in the middle of a jump they start from 0. */
-static PetscErrorCode BeginSums(SamLife l, PetscBool middle)
+static PetscErrorCode Begin(SamLife l, SamRate *rate, SamMeans *means)
 {
-  PetscFunctionBegin;
-  for (PetscInt k = 0; k < SAM_LAWS; k++) {
-    Vec sum;
-
-    PetscCall(SamLifeGetSum(l, k, &sum));
-    if (sum && middle) PetscCall(VecSet(sum, 0));
-    if (sum && !middle) PetscCall(VecCopy(l->before[k], sum));
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Returns the committed values of a field that the law of wear stores. */
-static PetscErrorCode Remembered(SamLife l, const char name[], Vec *field)
-{
-  PetscFunctionBegin;
-  PetscCall(SamStateRestoreField(l->memory, SamStateFindField(l->memory, name), SAM_COMMITTED, field));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamLifeGetLoads(SamLife l, SamLoads loads)
-{
-  static const char *const names[SAM_WEAR_LOADS] = {SAM_WEAR_LOAD, SAM_WEAR_LOAD2};
-
-  PetscFunctionBegin;
-  for (PetscInt k = 0; k < l->loads; k++) PetscCall(Remembered(l, names[k], &loads[k]));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamLifeSetLoads(SamLife l, const SamLoads loads)
-{
-  SamLoads to;
-
-  PetscFunctionBegin;
-  PetscCall(SamLifeGetLoads(l, to));
-  for (PetscInt k = 0; k < l->loads; k++) PetscCall(VecCopy(loads[k], to[k]));
-  l->law->revision++;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode Begin(SamLife l, SamRate *rate, SamControl *mean)
-{
+  const PetscBool    magnified = rate->passes ? PETSC_TRUE : PETSC_FALSE;
   const SamSolution *s;
   Vec                cycle, path;
 
   PetscFunctionBegin;
-  PetscCall(BeginSums(l, rate == &l->middle));
-  PetscCall(Remembered(l, SAM_WEAR_CYCLE, &cycle));
-  PetscCall(Remembered(l, SAM_WEAR_PATH, &path));
+  PetscCall(SamLifeBeginSums(l, rate == &l->middle));
+  PetscCall(SamLifeRemembered(l, SAM_WEAR_CYCLE, &cycle));
+  PetscCall(SamLifeRemembered(l, SAM_WEAR_PATH, &path));
   PetscCall(VecSet(cycle, 0));
   PetscCall(VecSet(path, 0));
-  if (l->passage) PetscCall(VecSet(l->passage, 0));
+  PetscCall(BeginMean(l, l->band, &means->passage));
+  PetscCall(BeginMean(l, !magnified, &means->gap));
+  PetscCall(BeginMean(l, !magnified && l->lifts, &means->lift));
+  PetscCall(BeginMean(l, magnified, &means->before));
   PetscCall(SamContactGetSolution(l->contact, &s));
-  PetscCall(rate->passes ? VecCopy(s->pressure, rate->pressure) : VecSet(rate->pressure, 0));
-  PetscCall(VecSet(rate->shift, 0));
-  PetscCall(VecSet(rate->coefficient, 0));
-  if (rate == &l->start && rate->passes) PetscCall(SamLifeBeginStrides(l));
-  PetscCall(SamControlInitialize(mean));
+  PetscCall(magnified ? VecCopy(s->pressure, means->before) : VecSet(rate->pressure, 0));
+  if (magnified) PetscCall(VecSet(rate->coefficient, 0));
+  if (rate == &l->start && magnified) PetscCall(SamLifeBeginStrides(l));
+  PetscCall(SamControlInitialize(&means->control));
   l->energy = 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamLifeIntegrate(SamGrid grid, Vec field)
+/* Gives the fields back. */
+static PetscErrorCode End(SamLife l, SamMeans *means)
 {
-  double *f;
+  Vec *const fields[] = {&means->before, &means->lift, &means->gap, &means->passage};
 
   PetscFunctionBegin;
-  PetscCall(VecGetArray(field, &f));
-  for (PetscInt first = 0; first < grid->cells; first += grid->nx) {
-    double sum = 0;
+  for (size_t k = 0; k < sizeof(fields) / sizeof(fields[0]); k++)
+    if (*fields[k]) PetscCall(SamPoolGive(l->pool, fields[k]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
 
-    for (PetscInt k = first; k < first + grid->nx; k++) sum += f[k] * (double)grid->dx;
-    for (PetscInt k = first; k < first + grid->nx; k++) f[k] = sum;
-  }
-  PetscCall(VecRestoreArray(field, &f));
+/* Adds a part of a field of the tried step. */
+static PetscErrorCode AddField(SamLife l, const char name[], PetscReal part, Vec sum)
+{
+  Vec field;
+
+  PetscFunctionBegin;
+  PetscCall(SamPoolTake(l->pool, &field));
+  PetscCall(SamContactGetField(l->contact, name, field));
+  PetscCall(VecAXPY(sum, part, field));
+  PetscCall(SamPoolGive(l->pool, &field));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -166,90 +131,96 @@ PetscErrorCode SamLifeIntegrate(SamGrid grid, Vec field)
   Adds the wear of a band by a passage, and its frictional work. The work of the loads is the same for similar bodies,
   but includes work of the pressure for dissimilar ones.
 */
-static PetscErrorCode AddPassage(SamLife l)
+static PetscErrorCode AddPassage(SamLife l, Vec passage)
 {
-  SamTotal      total = {0};
-  double        power;
-  const double *line;
+  const PetscBool by_energy = ((const SamWear *)l->law->data)->by_energy;
+  SamTotal        total     = {0};
+  double          power;
+  const double   *line;
+  Vec             lines; /* frictional power of each line over the rolling speed, Pa m */
 
   PetscFunctionBegin;
-  PetscCall(SamContactGetField(l->contact, "power_density", l->gap));
-  PetscCall(SamLifeIntegrate(l->grid, l->gap));
-  PetscCall(VecGetArrayRead(l->gap, &line));
+  PetscCall(SamPoolTake(l->pool, &lines));
+  PetscCall(SamContactGetField(l->contact, "power_density", lines));
+  PetscCall(SamLifeIntegrate(l->grid, lines));
+  PetscCall(VecGetArrayRead(lines, &line));
   for (PetscInt j = 0; j < l->grid->rows; j++) SamAdd(&total, line[j * l->grid->nx]);
-  PetscCall(VecRestoreArrayRead(l->gap, &line));
+  PetscCall(VecRestoreArrayRead(lines, &line));
   PetscCall(SamSumTotals(l->grid->comm, 1, &total, &power));
   l->energy += power * l->grid->dy;
-  if (!((const SamWear *)l->law->data)->by_energy) PetscCall(SamContactGetField(l->contact, "wear_passage", l->gap));
-  PetscCall(VecAXPY(l->passage, 1, l->gap));
+  PetscCall(by_energy ? VecAXPY(passage, 1, lines) : AddField(l, "wear_passage", 1, passage));
+  PetscCall(SamPoolGive(l->pool, &lines));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/*
-  Adds a tried step to the means: pressure, gap in `shift`, and, where surfaces are lifted, u_z in `coefficient`;
-  conditions are those of the last step. Magnified cycles repeat the step itself instead.
-*/
-static PetscErrorCode Count(SamLife l, PetscInt k, const SamStep *step, SamRate *rate, SamControl *mean)
+/* Adds a tried step to the means. Magnified cycles repeat the step itself instead. */
+static PetscErrorCode Count(SamLife l, PetscInt k, const SamStep *step, SamRate *rate, SamMeans *means)
 {
   const PetscReal    part   = 1 / (PetscReal)l->cycle.steps;
-  const SamControl   so_far = *mean;
+  const SamControl   so_far = means->control;
   const SamSolution *s;
   PetscReal          energy;
 
   PetscFunctionBegin;
   if (l->band) {
-    PetscCall(AddPassage(l));
+    PetscCall(AddPassage(l, means->passage));
   } else {
     PetscCall(SamContactGetNumber(l->contact, "dissipated_energy", &energy));
     l->energy += energy;
   }
-  if (rate->passes) PetscCall(SamLifeNotePass(l, k, step, rate));
+  if (rate->passes) PetscCall(SamLifeNotePass(l, k, step, means->before, rate));
   if (rate->passes) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamContactGetSolution(l->contact, &s));
   PetscCall(VecAXPY(rate->pressure, part, s->pressure));
-  PetscCall(SamContactGetField(l->contact, "gap", l->gap));
-  PetscCall(VecAXPY(rate->shift, part, l->gap));
-  if (l->lifts) PetscCall(VecAXPY(rate->coefficient, part, s->displacement_z));
-  *mean = step->control;
-  for (PetscInt c = 0; c < SAM_COMPONENTS; c++) mean->value[c] = so_far.value[c] + part * step->control.value[c];
+  PetscCall(AddField(l, "gap", part, means->gap));
+  if (means->lift) PetscCall(VecAXPY(means->lift, part, s->displacement_z));
+  means->control = step->control;
+  for (PetscInt c = 0; c < SAM_COMPONENTS; c++)
+    means->control.value[c] = so_far.value[c] + part * step->control.value[c];
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* ---- the rate ---- */
 
-/* Computes the shift from the mean gap; `coefficient` contains u_z where surfaces are lifted. */
-static PetscErrorCode FindShift(SamLife l, SamRate *rate)
+/* Computes the shift from the mean gap and lift. */
+static PetscErrorCode FindShift(SamLife l, const SamMeans *means, SamRate *rate)
 {
-  const double *p;
+  const double *p, *gap;
   double       *shift;
+  Vec           by_pressure; /* S P, m */
 
   PetscFunctionBegin;
   PetscCall(VecGetArrayRead(rate->pressure, &p));
-  PetscCall(VecGetArray(rate->shift, &shift));
-  for (PetscInt k = 0; k < l->grid->cells; k++) shift[k] = SamIsPressed(p[k]) ? -shift[k] : 0;
-  PetscCall(VecRestoreArray(rate->shift, &shift));
+  PetscCall(VecGetArrayRead(means->gap, &gap));
+  PetscCall(VecGetArrayWrite(rate->shift, &shift));
+  for (PetscInt k = 0; k < l->grid->cells; k++) shift[k] = SamIsPressed(p[k]) ? -gap[k] : 0;
+  PetscCall(VecRestoreArrayWrite(rate->shift, &shift));
+  PetscCall(VecRestoreArrayRead(means->gap, &gap));
   PetscCall(VecRestoreArrayRead(rate->pressure, &p));
-  if (!l->lifts) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SamElasticityApplyNormal(SamProblemGetElasticity(l->problem), rate->pressure, l->gap));
-  PetscCall(VecAXPY(rate->shift, 1, rate->coefficient));
-  PetscCall(VecAXPY(rate->shift, -1, l->gap));
+  if (!means->lift) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamPoolTake(l->pool, &by_pressure));
+  PetscCall(SamElasticityApplyNormal(SamProblemGetElasticity(l->problem), rate->pressure, by_pressure));
+  PetscCall(VecAXPY(rate->shift, 1, means->lift));
+  PetscCall(VecAXPY(rate->shift, -1, by_pressure));
+  PetscCall(SamPoolGive(l->pool, &by_pressure));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Computes the coefficient of a band; `most`: its largest wear load per pressure, m. */
-static PetscErrorCode FindCoefficientOfBand(SamLife l, SamRate *rate, double *most)
+/* Computes the coefficient of a band from its wear load, Pa m; `most`: its largest wear load per pressure, m. */
+static PetscErrorCode FindCoefficientOfBand(SamGrid grid, SamPool pool, Vec wear, SamRate *rate, double *most)
 {
-  const SamGrid grid = l->grid;
   const double *p, *passage, *line;
   double       *slip, *to;
+  Vec           lines; /* the pressure's integral along x, Pa m */
 
   PetscFunctionBegin;
   PetscCall(PetscCalloc1(grid->ny, &slip));
-  PetscCall(VecCopy(rate->pressure, l->gap));
-  PetscCall(SamLifeIntegrate(grid, l->gap));
+  PetscCall(SamPoolTake(pool, &lines));
+  PetscCall(VecCopy(rate->pressure, lines));
+  PetscCall(SamLifeIntegrate(grid, lines));
   PetscCall(VecGetArrayRead(rate->pressure, &p));
-  PetscCall(VecGetArrayRead(l->passage, &passage));
-  PetscCall(VecGetArrayRead(l->gap, &line));
+  PetscCall(VecGetArrayRead(wear, &passage));
+  PetscCall(VecGetArrayRead(lines, &line));
   for (PetscInt k = 0; k < grid->cells; k += grid->nx) {
     double *mine = &slip[grid->row_start + k / grid->nx], cells = 0;
 
@@ -257,9 +228,10 @@ static PetscErrorCode FindCoefficientOfBand(SamLife l, SamRate *rate, double *mo
     for (PetscInt i = k; i < k + grid->nx; i++) cells += SamIsPressed(p[i]);
     *most = PetscMax(*most, *mine * cells * (double)grid->dx);
   }
-  PetscCall(VecRestoreArrayRead(l->gap, &line));
-  PetscCall(VecRestoreArrayRead(l->passage, &passage));
+  PetscCall(VecRestoreArrayRead(lines, &line));
+  PetscCall(VecRestoreArrayRead(wear, &passage));
   PetscCall(VecRestoreArrayRead(rate->pressure, &p));
+  PetscCall(SamPoolGive(pool, &lines));
   PetscCall(SamSum(grid->comm, grid->ny, slip));
   for (PetscInt j = 1; j < grid->ny; j++) slip[j] = slip[j] > 0 ? slip[j] : slip[j - 1];
   for (PetscInt j = grid->ny - 1; j > 0; j--) slip[j - 1] = slip[j - 1] > 0 ? slip[j - 1] : slip[j];
@@ -270,39 +242,46 @@ static PetscErrorCode FindCoefficientOfBand(SamLife l, SamRate *rate, double *mo
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode FindCoefficient(SamLife l, const SamControl *mean, SamRate *rate)
+/* Computes the coefficient of a contact whose material stays; `most` likewise. */
+static PetscErrorCode FindCoefficientOfCells(SamLife l, const SamControl *mean, SamRate *rate, double *most)
 {
   const SamBoundAt at = {l->memory, mean, rate->pressure, NULL, 0};
   const double    *p, *load, *path, *unit;
-  double          *to, most = 0;
-  Vec              cycle, slip;
+  double          *to;
+  Vec              cycle, slip, units; /* wear load of a unit of slip per pressure */
 
   PetscFunctionBegin;
-  if (l->band) {
-    PetscCall(FindCoefficientOfBand(l, rate, &most));
-    PetscCall(SamMax(l->grid->comm, 1, &most));
-    PetscCall(SamWearGetLimit(l->law, (PetscReal)most, &rate->limit));
-    PetscFunctionReturn(PETSC_SUCCESS);
-  }
-  PetscCall(VecSet(l->diagonal, 1)); /* wear load of a unit of slip per pressure */
+  PetscCall(SamPoolTake(l->pool, &units));
+  PetscCall(VecSet(units, 1));
   if (((const SamWear *)l->law->data)->by_energy)
-    PetscCall(SamProblemComputeBound(l->problem, &at, &(SamBound){.by_pressure = l->diagonal}));
-  PetscCall(Remembered(l, SAM_WEAR_CYCLE, &cycle));
-  PetscCall(Remembered(l, SAM_WEAR_PATH, &slip));
+    PetscCall(SamProblemComputeBound(l->problem, &at, &(SamBound){.by_pressure = units}));
+  PetscCall(SamLifeRemembered(l, SAM_WEAR_CYCLE, &cycle));
+  PetscCall(SamLifeRemembered(l, SAM_WEAR_PATH, &slip));
   PetscCall(VecGetArrayRead(rate->pressure, &p));
   PetscCall(VecGetArrayRead(cycle, &load));
   PetscCall(VecGetArrayRead(slip, &path));
-  PetscCall(VecGetArrayRead(l->diagonal, &unit));
+  PetscCall(VecGetArrayRead(units, &unit));
   PetscCall(VecGetArrayWrite(rate->coefficient, &to));
   for (PetscInt k = 0; k < l->grid->cells; k++) {
     to[k] = SamIsPressed(p[k]) ? load[k] / p[k] : unit[k] * path[k];
-    most  = SamIsPressed(p[k]) ? PetscMax(most, to[k]) : most;
+    *most = SamIsPressed(p[k]) ? PetscMax(*most, to[k]) : *most;
   }
   PetscCall(VecRestoreArrayWrite(rate->coefficient, &to));
-  PetscCall(VecRestoreArrayRead(l->diagonal, &unit));
+  PetscCall(VecRestoreArrayRead(units, &unit));
   PetscCall(VecRestoreArrayRead(slip, &path));
   PetscCall(VecRestoreArrayRead(cycle, &load));
   PetscCall(VecRestoreArrayRead(rate->pressure, &p));
+  PetscCall(SamPoolGive(l->pool, &units));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode FindCoefficient(SamLife l, const SamMeans *means, SamRate *rate)
+{
+  double most = 0;
+
+  PetscFunctionBegin;
+  PetscCall(l->band ? FindCoefficientOfBand(l->grid, l->pool, means->passage, rate, &most)
+                    : FindCoefficientOfCells(l, &means->control, rate, &most));
   PetscCall(SamMax(l->grid->comm, 1, &most));
   PetscCall(SamWearGetLimit(l->law, (PetscReal)most, &rate->limit));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -395,20 +374,23 @@ static PetscErrorCode CloseLoop(SamLife l, PetscReal cycles, PetscReal *energy, 
 {
   const SamSolution *s;
   PetscReal          change = PETSC_INFINITY, bound = 0;
+  Vec                shear; /* before a cycle minus that after it, two components, Pa */
 
   PetscFunctionBegin;
+  PetscCall(SamGridCreateVec(l->grid, 2, &shear));
   l->state.by_turns = PETSC_FALSE;
   for (PetscInt pass = 0; pass < MOST_PASSES && change > CLOSED * l->set.rtol * bound; pass++) {
     PetscCall(SamContactGetSolution(l->contact, &s));
-    PetscCall(VecCopy(s->shear, l->shear));
+    PetscCall(VecCopy(s->shear, shear));
     PetscCall(GoRound(l, cycles, energy, solved));
-    if (!*solved) PetscFunctionReturn(PETSC_SUCCESS);
+    if (!*solved) break;
     l->state.computed++;
     PetscCall(SamContactGetSolution(l->contact, &s));
-    PetscCall(VecAXPY(l->shear, -1, s->shear));
-    PetscCall(SamGridNorm(l->grid, l->shear, NORM_1, &change));
+    PetscCall(VecAXPY(shear, -1, s->shear));
+    PetscCall(SamGridNorm(l->grid, shear, NORM_1, &change));
     PetscCall(SamGridNorm(l->grid, s->bound, NORM_1, &bound));
   }
+  PetscCall(VecDestroy(&shear));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -438,11 +420,29 @@ static PetscErrorCode FindWay(SamLife l, PetscReal cycles, PetscBool *solved)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Computes the rate from what has been summed up over the solved cycle. */
+static PetscErrorCode FindRate(SamLife l, const SamMeans *means, SamRate *rate)
+{
+  PetscReal most;
+
+  PetscFunctionBegin;
+  if (rate->passes) {
+    if (rate == &l->start) PetscCall(SamLifeEndStrides(l));
+    PetscCall(VecMax(rate->coefficient, NULL, &most));
+    PetscCall(SamWearGetLimit(l->law, most, &rate->limit));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  rate->balance = SamControlGetBalance(&means->control, SAM_BALANCE_NORMAL);
+  PetscCall(FindShift(l, means, rate));
+  PetscCall(FindCoefficient(l, means, rate));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamLifeComputeRate(SamLife l, SamRate *rate, PetscReal cycles, PetscBool tell, PetscBool *solved)
 {
   const PetscInt n = l->cycle.steps;
-  SamControl     mean;
-  PetscReal      ignored, most, from[2];
+  SamMeans       means;
+  PetscReal      ignored, from[2];
   SamStep        step;
 
   PetscFunctionBegin;
@@ -452,52 +452,20 @@ PetscErrorCode SamLifeComputeRate(SamLife l, SamRate *rate, PetscReal cycles, Pe
     PetscCall(FindWay(l, cycles, solved));
   else if (!l->band)
     PetscCall(GoRound(l, cycles, &ignored, solved));
-  PetscCall(Begin(l, rate, &mean));
+  PetscCall(Begin(l, rate, &means));
   if (tell) PetscCall(SamLifeKeepStrain(l, &l->strain));
   PetscCall(Locate(l, from));
   for (PetscInt k = 0; k < n && *solved; k++) {
     PetscCall(SolveStep(l, k, cycles, &step, solved));
     if (tell && l->cycle.solved) PetscCall(l->cycle.solved(l->cycle.context, k, cycles, &step));
-    if (*solved) PetscCall(Count(l, k, &step, rate, &mean));
+    if (*solved) PetscCall(Count(l, k, &step, rate, &means));
     if (*solved) PetscCall(Commit(l, k, rate == &l->start ? SAM_LIFE_START : SAM_LIFE_MIDDLE));
   }
   l->state.computed++;
   l->open = *solved || l->band ? PETSC_FALSE : PETSC_TRUE;
-  if (!*solved) PetscFunctionReturn(PETSC_SUCCESS);
-  if (tell) PetscCall(SamLifeFindFlow(l, &l->strain));
-  PetscCall(Rewind(l, from));
-  if (rate->passes) {
-    if (rate == &l->start) PetscCall(SamLifeEndStrides(l));
-    PetscCall(VecMax(rate->coefficient, NULL, &most));
-    PetscCall(SamWearGetLimit(l->law, most, &rate->limit));
-    PetscFunctionReturn(PETSC_SUCCESS);
-  }
-  rate->balance = SamControlGetBalance(&mean, SAM_BALANCE_NORMAL);
-  PetscCall(FindShift(l, rate));
-  PetscCall(FindCoefficient(l, &mean, rate));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Reports a jump without solution as a failed step. */
-static PetscErrorCode FailJump(SamLife l, PetscReal cycles, SamSolverReason reason)
-{
-  PetscFunctionBegin;
-  l->at          = l->cycle.steps - 1;
-  l->step.status = SAM_STATUS_NOT_CONVERGED;
-  (void)snprintf(l->step.message, sizeof(l->step.message),
-                 "the normal problem of a cycle jump of %.10g cycles did not converge: %s", (double)cycles,
-                 SamSolverReasonName(reason));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamLifeSolveNormal(SamLife l, SamBalance balance, PetscReal cycles, PetscBool guess, Vec p,
-                                  PetscBool *solved)
-{
-  const SamNormal normal = SamContactGetNormal(l->contact);
-
-  PetscFunctionBegin;
-  PetscCall(SamNormalSolveYielding(normal, l->gap, l->diagonal, &balance, guess, p));
-  *solved = SamSolverGetReason(SamNormalAsSolver(normal)) > 0;
-  if (!*solved) PetscCall(FailJump(l, cycles, SamSolverGetReason(SamNormalAsSolver(normal))));
+  if (*solved && tell) PetscCall(SamLifeFindFlow(l, &l->strain));
+  if (*solved) PetscCall(Rewind(l, from));
+  if (*solved) PetscCall(FindRate(l, &means, rate));
+  PetscCall(End(l, &means));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

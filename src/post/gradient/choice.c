@@ -149,28 +149,29 @@ PetscErrorCode SamChoiceCheck(SamGradient g, const char of[])
 /* A parameter with one number: its kind, and its place among those of the kind */
 typedef enum { LAW, MODULUS, SHAPE } Kind;
 
-/* Finds it; returns false if there is none of that name. */
-static PetscBool FindNumber(SamGradient g, const char name[], Kind *kind, PetscInt *place)
+/* Finds it, and returns the derivative by it; NULL: it was not wanted, or there is none of that name. */
+static const PetscReal *FindNumber(SamGradient g, const char name[], Kind *kind, PetscInt *place)
 {
-  const char *one;
+  const SamDerivatives  *d    = &g->found;
+  const PetscReal *const by[] = {[LAW] = d->law, [MODULUS] = d->moduli, [SHAPE] = d->shape};
+  const char            *one;
 
+  if (!SamGradientHas(g, name)) return NULL;
   for (PetscInt k = 0; (one = SamGradientNumber(g, k)); k++) {
     if (strcmp(name, one)) continue;
     *kind  = k < g->laws ? LAW : k < g->laws + SAM_GRADIENT_MODULI ? MODULUS : SHAPE;
     *place = k - (*kind == LAW ? 0 : *kind == MODULUS ? g->laws : g->laws + SAM_GRADIENT_MODULI);
-    return PETSC_TRUE;
+    return &by[*kind][*place];
   }
-  return PETSC_FALSE;
+  return NULL;
 }
 
 const PetscReal *SamChoiceFind(SamGradient g, const char name[])
 {
-  const SamDerivatives  *d    = &g->found;
-  const PetscReal *const by[] = {[LAW] = d->law, [MODULUS] = d->moduli, [SHAPE] = d->shape};
-  Kind                   kind;
-  PetscInt               place;
+  Kind     kind;
+  PetscInt place;
 
-  return SamGradientHas(g, name) && FindNumber(g, name, &kind, &place) ? &by[kind][place] : NULL;
+  return FindNumber(g, name, &kind, &place);
 }
 
 PetscErrorCode SamChoiceGetShare(SamGradient g, const char name[], PetscReal *share)
@@ -187,8 +188,8 @@ PetscErrorCode SamChoiceGetShare(SamGradient g, const char name[], PetscReal *sh
   PetscCall(SamGapGetParameters(g->shape, NULL, NULL, NULL, &values[SHAPE]));
   for (PetscInt k = 0; k < g->laws; k++) of_law[k] = g->law[k]->ops.number(g->law[k]);
   *share = 0;
-  by     = SamChoiceFind(g, name);
-  if (by && FindNumber(g, name, &kind, &place) && isfinite(values[kind][place])) *share = values[kind][place] * *by;
+  by     = FindNumber(g, name, &kind, &place);
+  if (by && isfinite(values[kind][place])) *share = values[kind][place] * *by;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -472,42 +472,42 @@ static PetscErrorCode Run(SamBack *b, const SamObjective *objective)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Checks that a number is not given itself in a step whose loads `force` are, and that these bodies have it. */
-static PetscErrorCode CheckComponent(SamElasticity e, const char name[], const PetscBool force[], PetscInt *component)
+/* Checks that a number is not given itself in a step whose loads `force` are. */
+static PetscErrorCode CheckGiven(MPI_Comm comm, const SamGradientGoal *goal, const PetscBool force[])
 {
-  const SamElasticityTraits traits = SamElasticityGetTraits(e);
-  const MPI_Comm            comm   = SamElasticityGetGrid(e)->comm;
+  const PetscInt c = goal->component;
 
   PetscFunctionBegin;
-  *component = -1;
-  for (PetscInt c = 0; c < SAM_COMPONENTS; c++) {
-    const PetscBool load = strcmp(name, SamComponentNames[c].load) ? PETSC_FALSE : PETSC_TRUE;
-
-    if (!load && strcmp(name, SamComponentNames[c].rigid)) continue;
-    *component = c;
-    PetscCheck(force[c] != load, comm, SAM_ERR_USER, "the gradient of %s: it is given: take %s", name,
-               load ? SamComponentNames[c].rigid : SamComponentNames[c].load);
-    PetscCheck(!traits.periodic || c == SAM_COMPONENT_TX || c == SAM_COMPONENT_TY ||
-                 (c == SAM_COMPONENT_N && (load || traits.mean)),
-               comm, SAM_ERR_USER, "the gradient of %s: periodic bodies have no such number: take disp_x or energy",
-               name);
-  }
+  PetscCheck(c < 0 || force[c] != goal->load, comm, SAM_ERR_USER, "the gradient of %s: it is given: take %s",
+             goal->name, goal->load ? SamComponentNames[c].rigid : SamComponentNames[c].load);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamGradientCheck(SamGradient g, const char name[], const PetscBool force[], const char of[],
-                                PetscInt *component)
+/* Checks that these bodies have a load or displacement. */
+static PetscErrorCode CheckComponent(SamElasticity e, const SamGradientGoal *goal)
+{
+  const SamElasticityTraits traits = SamElasticityGetTraits(e);
+  const PetscInt            c      = goal->component;
+
+  PetscFunctionBegin;
+  PetscCheck(!traits.periodic || c < 0 || c == SAM_COMPONENT_TX || c == SAM_COMPONENT_TY ||
+               (c == SAM_COMPONENT_N && (goal->load || traits.mean)),
+             SamElasticityGetGrid(e)->comm, SAM_ERR_USER,
+             "the gradient of %s: periodic bodies have no such number: take disp_x or energy", goal->name);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamGradientCheck(SamGradient g, const SamGradientGoal *goal, const PetscBool force[], const char of[])
 {
   const SamElasticity e    = SamProblemGetElasticity(SamContactGetProblem(g->contact));
   const MPI_Comm      comm = SamContactGetGrid(g->contact)->comm;
   SamPairConstants    constants;
   const char         *none;
-  const SamObjective *objective;
 
   PetscFunctionBegin;
-  PetscCall(SamObjectiveFind(comm, name, &objective));
-  PetscCall(CheckComponent(e, name, force, component));
-  if (objective->check) PetscCall((*objective->check)(SamContactGetProblem(g->contact), name));
+  PetscCall(CheckGiven(comm, goal, force));
+  PetscCall(CheckComponent(e, goal));
+  if (goal->objective->check) PetscCall((*goal->objective->check)(SamContactGetProblem(g->contact), goal->name));
   PetscCall(SamChoiceCheck(g, of));
   if (!SamChoiceHasModuli(g, of)) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCheck(g->cycle == 0, comm, SAM_ERR_USER,
@@ -519,44 +519,34 @@ PetscErrorCode SamGradientCheck(SamGradient g, const char name[], const PetscBoo
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamGradientGetBytes(MPI_Comm comm, const char name[], PetscInt bytes[3])
-{
-  const SamObjective *objective;
-
-  PetscFunctionBegin;
-  PetscCall(SamObjectiveFind(comm, name, &objective));
-  PetscCall(PetscArraycpy(bytes, objective->bytes, 3));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamGradientCompute(SamGradient g, const char name[], const PetscInt steps[2], const char of[],
+PetscErrorCode SamGradientCompute(SamGradient g, const SamGradientGoal *goal, const PetscInt steps[2], const char of[],
                                   PetscReal rtol)
 {
-  SamBack             b    = {.g = g, .rtol = rtol};
-  SamDerivatives     *d    = NULL;
-  const MPI_Comm      comm = SamContactGetGrid(g->contact)->comm;
-  const SamObjective *objective;
+  const SamObjective *objective = goal->objective;
+  SamBack             b         = {.g = g, .rtol = rtol};
+  SamDerivatives     *d         = NULL;
+  const MPI_Comm      comm      = SamContactGetGrid(g->contact)->comm;
   PetscInt            begin;
 
   PetscFunctionBegin;
   d = &g->found;
-  PetscCall(SamObjectiveFind(comm, name, &objective));
-  PetscCheck(g->count > 0, comm, SAM_ERR_USER, "the gradient of %s: no step has been recorded", name);
+  PetscCheck(g->count > 0, comm, SAM_ERR_USER, "the gradient of %s: no step has been recorded", goal->name);
   begin      = g->cycle > 0 ? g->count - g->cycle : 0;
   b.at.last  = steps[1] < 0 ? g->count - 1 : begin + steps[1];
   b.at.first = steps[0] < 0 ? objective->all ? begin : b.at.last : begin + steps[0];
   PetscCheck(b.at.first <= b.at.last && b.at.last < g->count, comm, SAM_ERR_USER,
              "the gradient of %s: steps %" PetscInt_FMT " to %" PetscInt_FMT
              ": expected steps from 0 to %" PetscInt_FMT,
-             name, b.at.first - begin, b.at.last - begin, g->count - 1 - begin);
-  for (PetscInt k = b.at.first; k <= b.at.last; k++)
-    PetscCall(SamGradientCheck(g, name, g->record[k].force, of, &b.at.component));
-  b.at.number = NAN;
-  b.at.name   = name;
+             goal->name, b.at.first - begin, b.at.last - begin, g->count - 1 - begin);
+  PetscCall(SamGradientCheck(g, goal, g->record[b.at.first].force, of));
+  for (PetscInt k = b.at.first + 1; k <= b.at.last; k++) PetscCall(CheckGiven(comm, goal, g->record[k].force));
+  b.at.component = goal->component;
+  b.at.number    = NAN;
+  b.at.name      = goal->name;
   PetscCall(ClearFound(d));
   d->count = g->rows > 0 ? g->rows : g->count;
   PetscCall(PetscCalloc3(d->count, &d->load, d->count, &d->rigid, d->count, &d->bulk));
-  (void)snprintf(d->name, sizeof(d->name), "%s", name);
+  (void)snprintf(d->name, sizeof(d->name), "%s", goal->name);
   (void)snprintf(d->unit, sizeof(d->unit), "%s",
                  objective->unit_of_row && SamGridIsRow(SamContactGetGrid(g->contact))
                    ? objective->unit_of_row
@@ -627,7 +617,8 @@ PetscErrorCode SamGradientGetNumber(SamGradient g, const char name[], PetscInt s
   if (!strcmp(name, "value")) *value = d->value;
   if (!strcmp(name, "residual")) *value = d->residual;
   if (!strcmp(name, "borders")) *value = (PetscReal)d->borders;
-  found = OfStep(g, name, step) ? OfStep(g, name, step) : SamChoiceFind(g, name);
+  found = OfStep(g, name, step);
+  if (!found) found = SamChoiceFind(g, name);
   if (found) *value = *found;
   PetscCheck(found || !isnan(*value), comm, SAM_ERR_USER, "the gradient by %s: there is no derivative by it", name);
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -191,8 +191,6 @@ PETSC_INTERN PetscBool        SamChoiceHasShape(SamGradient g, const char of[]);
 PETSC_INTERN const PetscReal *SamChoiceFind(SamGradient g, const char name[]);
 PETSC_INTERN PetscErrorCode   SamChoiceGetShare(SamGradient g, const char name[], PetscReal *share);
 PETSC_INTERN PetscErrorCode   SamChoiceAddShape(SamGradient g);
-/* SamObjectiveFind - finds the objective of a name. Errors: SAM_ERR_USER, with what is expected. Not collective. */
-PETSC_INTERN PetscErrorCode SamObjectiveFind(MPI_Comm comm, const char name[], const SamObjective **objective);
 /* SamObjectiveRegisterStresses - registers the smooth maxima of stresses (stressobjective.c). */
 PETSC_INTERN PetscErrorCode SamObjectiveRegisterStresses(void);
 

@@ -198,7 +198,7 @@ static const char *WhyNot(const char name[])
   return "";
 }
 
-PetscErrorCode SamObjectiveFind(MPI_Comm comm, const char name[], const SamObjective **objective)
+PetscErrorCode SamGradientFind(MPI_Comm comm, const char name[], SamGradientGoal *goal)
 {
   const size_t length     = strcspn(name, "@");
   char         names[512] = "";
@@ -206,16 +206,23 @@ PetscErrorCode SamObjectiveFind(MPI_Comm comm, const char name[], const SamObjec
 
   PetscFunctionBegin;
   if (!has_own) PetscCall(RegisterAll());
-  *objective = NULL;
+  *goal = (SamGradientGoal){.name = name, .component = -1};
   for (PetscInt k = 0; k < listed; k++) {
     const PetscBool is =
       strlen(list[k].name) == length && !strncmp(list[k].name, name, length) && (list[k].suffix || !name[length]);
 
-    if (is) *objective = &list[k];
+    if (is) goal->objective = &list[k];
     used += (size_t)snprintf(names + used, sizeof(names) - used, "%s%s%s", k ? ", " : "", list[k].name,
                              list[k].suffix ? "@DEPTH" : "");
     used = PetscMin(used, sizeof(names) - 1);
   }
-  PetscCheck(*objective, comm, SAM_ERR_USER, "the gradient of %s%s: expected %s", name, WhyNot(name), names);
+  for (PetscInt c = 0; c < SAM_COMPONENTS; c++) {
+    const PetscBool load = strcmp(name, SamComponentNames[c].load) ? PETSC_FALSE : PETSC_TRUE;
+
+    if (!load && strcmp(name, SamComponentNames[c].rigid)) continue;
+    goal->component = c;
+    goal->load      = load;
+  }
+  PetscCheck(goal->objective, comm, SAM_ERR_USER, "the gradient of %s%s: expected %s", name, WhyNot(name), names);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -79,18 +79,14 @@ static PetscErrorCode WriteFields(SamOutput o, hid_t group, SamGradient g)
 
 PetscErrorCode SamOutputCreateGradients(SamOutput o)
 {
-  char **names;
-  int    count;
-  hid_t  all;
+  hid_t all;
 
   PetscFunctionBegin;
-  if (!o->set.gradients || !o->set.gradients[0]) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(PetscStrToArray(o->set.gradients, ',', &count, &names));
+  if (!o->set.gradients) PetscFunctionReturn(PETSC_SUCCESS);
   all = SamFileNote(o->f, H5Gcreate2(o->f->id, "gradient", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
-  for (int k = 0; k < count; k++)
-    (void)SamFileNote(o->f, H5Gclose(H5Gcreate2(all, names[k], H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT)));
+  for (int k = 0; k < o->set.gradients; k++)
+    (void)SamFileNote(o->f, H5Gclose(H5Gcreate2(all, o->set.gradient[k], H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT)));
   (void)SamFileNote(o->f, H5Gclose(all));
-  PetscCall(PetscStrToArrayDestroy(count, names));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

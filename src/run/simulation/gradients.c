@@ -20,51 +20,57 @@ static const SamOptionRow rows[] = {
    .needs = "gradient", .loosest = SAM_GRADIENT_LOOSEST, .beyond = "derivatives are wrong by per cents"}};
 
 /* Calls a function for each of the numbers, also after an error for one of them. */
-static PetscErrorCode ForEach(SamSimulation s, PetscErrorCode (*call)(SamSimulation s, const char name[]))
+static PetscErrorCode ForEach(SamSimulation s, PetscErrorCode (*call)(SamSimulation s, SamGradientGoal *goal))
 {
-  char         **names;
-  int            count;
   PetscErrorCode ierr = PETSC_SUCCESS;
 
   PetscFunctionBegin;
-  PetscCall(PetscStrToArray(s->gradients.names, ',', &count, &names));
-  for (int k = 0; k < count; k++) {
-    const PetscErrorCode one = (*call)(s, names[k]);
+  for (int k = 0; k < s->gradients.count; k++) {
+    const PetscErrorCode one = (*call)(s, &s->gradients.goal[k]);
 
     if (!ierr) ierr = one;
   }
-  PetscCall(PetscStrToArrayDestroy(count, names));
   PetscCall(ierr);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Checks that there are names, and that none is listed twice. */
-static PetscErrorCode CheckNames(SamSimulation s)
+/* Takes the names apart, and checks that there are some, and that none is listed twice. */
+static PetscErrorCode TakeNames(SamSimulation s)
 {
-  char **names;
-  int    count, twice = -1;
-  char   name[SAM_GRADIENT_NAMES] = "";
+  SamGradientPlan *const p     = &s->gradients;
+  int                    twice = -1;
 
   PetscFunctionBegin;
-  PetscCall(PetscStrToArray(s->gradients.names, ',', &count, &names));
-  for (int k = 0; k < count; k++)
+  PetscCall(PetscStrToArray(p->names, ',', &p->count, &p->name));
+  PetscCheck(p->count > 0, s->comm, SAM_ERR_USER, "-gradient %s: expected names like energy,disp_x", p->names);
+  for (int k = 0; k < p->count; k++)
     for (int m = 0; m < k; m++)
-      if (!strcmp(names[k], names[m])) twice = k;
-  if (twice >= 0) (void)snprintf(name, sizeof(name), "%s", names[twice]);
-  PetscCall(PetscStrToArrayDestroy(count, names));
-  PetscCheck(count > 0, s->comm, SAM_ERR_USER, "-gradient %s: expected names like energy,disp_x", s->gradients.names);
-  PetscCheck(twice < 0, s->comm, SAM_ERR_USER, "-gradient %s: %s is listed twice", s->gradients.names, name);
+      if (!strcmp(p->name[k], p->name[m])) twice = k;
+  PetscCheck(twice < 0, s->comm, SAM_ERR_USER, "-gradient %s: %s is listed twice", p->names, p->name[twice]);
+  PetscCall(PetscCalloc1(p->count, &p->goal));
+  for (int k = 0; k < p->count; k++) p->goal[k].name = p->name[k];
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Raises the memory of the numbers, which are computed one after the other, to that of one of them. */
-static PetscErrorCode FindBytes(SamSimulation s, const char name[])
+PetscErrorCode SamSimulationForgetGradients(SamSimulation s)
 {
-  PetscInt bytes[3];
+  SamGradientPlan *const p = &s->gradients;
 
   PetscFunctionBegin;
-  PetscCall(SamGradientGetBytes(s->comm, name, bytes));
-  for (int k = 0; k < 3; k++) s->needs.gradient_bytes[k] = PetscMax(s->needs.gradient_bytes[k], bytes[k]);
+  PetscCall(PetscStrToArrayDestroy(p->count, p->name));
+  PetscCall(PetscFree(p->goal));
+  p->count = 0;
+  p->name  = NULL;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Finds a number, and raises the memory of the numbers, which are computed one after the other, to that of it. */
+static PetscErrorCode Find(SamSimulation s, SamGradientGoal *goal)
+{
+  PetscFunctionBegin;
+  PetscCall(SamGradientFind(s->comm, goal->name, goal));
+  for (int k = 0; k < 3; k++)
+    s->needs.gradient_bytes[k] = PetscMax(s->needs.gradient_bytes[k], goal->objective->bytes[k]);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -81,6 +87,7 @@ PetscErrorCode SamSimulationReadGradientMemory(SamSimulation s, const SamOptions
 PetscErrorCode SamSimulationReadGradients(SamSimulation s, const SamOptions *from)
 {
   PetscFunctionBegin;
+  PetscCall(SamSimulationForgetGradients(s));
   s->gradients = (SamGradientPlan){.rtol = 1e-4};
   PetscCall(SamOptionsRead(from, "Gradients", SAM_OPTION_ROWS(rows), &s->gradients, NULL));
   s->needs.gradient_memory = s->gradients.memory;
@@ -88,18 +95,17 @@ PetscErrorCode SamSimulationReadGradients(SamSimulation s, const SamOptions *fro
   PetscCall(PetscArrayzero(s->needs.gradient_bytes, 3));
   s->needs.gradient_jumps = s->needs.life && s->plan.life.fixed ? s->plan.cycles / s->plan.life.jump : 0;
   if (!s->needs.gradient) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(CheckNames(s));
-  PetscCall(ForEach(s, FindBytes));
+  PetscCall(TakeNames(s));
+  PetscCall(ForEach(s, Find));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode Check(SamSimulation s, const char name[])
+static PetscErrorCode Check(SamSimulation s, SamGradientGoal *goal)
 {
   const SamControl last = SamHistoryGetStep(s->history, s->needs.steps - 1);
-  PetscInt         component;
 
   PetscFunctionBegin;
-  PetscCall(SamGradientCheck(s->gradient, name, last.force, s->gradients.of, &component));
+  PetscCall(SamGradientCheck(s->gradient, goal, last.force, s->gradients.of));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -140,7 +146,7 @@ PetscErrorCode SamSimulationBeginGradients(SamSimulation s)
   const PetscInt first = s->gradients.steps[0], last = s->gradients.steps[1], end = last ? last : count;
 
   PetscFunctionBegin;
-  if (!s->gradients.names[0]) PetscFunctionReturn(PETSC_SUCCESS);
+  if (!s->gradients.count) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCheck(first >= 0 && first <= end && (last == 0 || last >= PetscMax(first, 1)) && end <= count, s->comm,
              SAM_ERR_USER,
              "-gradient_steps %" PetscInt_FMT ",%" PetscInt_FMT ": the history has %" PetscInt_FMT
@@ -154,22 +160,22 @@ PetscErrorCode SamSimulationBeginGradients(SamSimulation s)
 }
 
 /* Computes the gradient of a number, writes it and tells of it. */
-static PetscErrorCode End(SamSimulation s, const char name[])
+static PetscErrorCode End(SamSimulation s, SamGradientGoal *goal)
 {
   const PetscInt steps[2] = {s->gradients.steps[0] - 1, s->gradients.steps[1] - 1};
   PetscReal      borders;
   char           text[SAM_MESSAGE];
 
   PetscFunctionBegin;
-  PetscCall(SamGradientCompute(s->gradient, name, steps, s->gradients.of, s->gradients.rtol));
-  PetscCall(SamOutputWriteGradient(s->output, s->gradient, name));
+  PetscCall(SamGradientCompute(s->gradient, goal, steps, s->gradients.of, s->gradients.rtol));
+  PetscCall(SamOutputWriteGradient(s->output, s->gradient, goal->name));
   PetscCall(SamGradientDescribe(s->gradient, text, sizeof(text)));
   PetscCall(SamSimulationNotify(s, &(SamSimulationEvent){.kind = SAM_NOTIFY_GRADIENT, .text = text}));
   PetscCall(SamGradientGetNumber(s->gradient, "borders", 0, &borders));
   (void)snprintf(text, sizeof(text),
                  "gradient of %s: %.0f cells are on the border of their set: it holds to one side, and jumps there by "
                  "the share of these cells",
-                 name, (double)borders);
+                 goal->name, (double)borders);
   if (borders > 0) PetscCall(SamSimulationWarn(s, text, ""));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -177,7 +183,7 @@ static PetscErrorCode End(SamSimulation s, const char name[])
 PetscErrorCode SamSimulationEndGradients(SamSimulation s)
 {
   PetscFunctionBegin;
-  if (!s->gradients.names[0] || !s->output) PetscFunctionReturn(PETSC_SUCCESS);
+  if (!s->gradients.count || !s->output) PetscFunctionReturn(PETSC_SUCCESS);
   if (s->point.worst != SAM_STATUS_CONVERGED || s->stopped) {
     PetscCall(SamSimulationWarn(s, "the gradients are not computed: they need all steps, in one run", "gradient"));
     PetscFunctionReturn(PETSC_SUCCESS);

@@ -13,7 +13,8 @@ static PetscErrorCode Create(SamSimulation s)
   PetscFunctionBegin;
   PetscCall(PetscFree(s->written));
   s->output_settings.errors    = s->errors ? PETSC_TRUE : PETSC_FALSE;
-  s->output_settings.gradients = s->gradients.names;
+  s->output_settings.gradients = s->gradients.count;
+  s->output_settings.gradient  = s->gradients.name;
   PetscCall(SamOutputNamePart(s->filename, s->point.part, &s->written));
   PetscCall(SamOutputCreate(s->setup.grid, s->written, &s->output_settings, &s->output));
   s->point.identity = SamOutputGetIdentity(s->output);

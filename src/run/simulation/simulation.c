@@ -28,6 +28,7 @@ PetscErrorCode SamSimulationDestroy(SamSimulation *simulation)
   PetscCall(SamOutputDestroy(&s->output));
   PetscCall(SamErrorsDestroy(&s->errors));
   PetscCall(SamGradientDestroy(&s->gradient));
+  PetscCall(SamSimulationForgetGradients(s));
   PetscCall(PetscFree(s->written));
   PetscCall(SamCheckpointDestroy(&s->checkpoints.files));
   PetscCall(SamLifeDestroy(&s->life));

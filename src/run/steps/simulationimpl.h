@@ -42,10 +42,13 @@ typedef struct _n_SamErrors *SamErrors;
 /* The gradients that a run writes */
 #define SAM_GRADIENT_NAMES 512
 typedef struct {
-  char      names[SAM_GRADIENT_NAMES]; /* of the numbers, separated by commas; empty: none */
-  PetscInt  steps[2];                  /* first and last step, from 1; 0: the usual ones */
-  char      of[SAM_GRADIENT_NAMES];    /* of the parameters, likewise; empty: the usual ones */
-  PetscReal rtol, memory;              /* bytes for recorded steps; 0: any */
+  char             names[SAM_GRADIENT_NAMES]; /* of the numbers, separated by commas; empty: none */
+  PetscInt         steps[2];                  /* first and last step, from 1; 0: the usual ones */
+  char             of[SAM_GRADIENT_NAMES];    /* of the parameters, likewise; empty: the usual ones */
+  PetscReal        rtol, memory;              /* bytes for recorded steps; 0: any */
+  int              count;                     /* of the numbers */
+  char           **name;                      /* of each */
+  SamGradientGoal *goal;                      /* each, as it has been found */
 } SamGradientPlan;
 
 #define SAM_WARNINGS 16 /* most warnings in the results */
