@@ -329,7 +329,7 @@ def wait_for_handlers(run, ranks):
 
 
 @pytest.mark.parametrize("number, code", [("USR1", 75), ("TERM", 75), ("USR2", 0)])
-@pytest.mark.parametrize("ranks, delay", [(1, 0), (1, 0.05), (1, 0.1), (1, 0.15), (2, 0), (2, 0.1)])
+@few("ranks, delay", [(1, 0), (1, 0.05), (1, 0.1), (1, 0.15), (2, 0.1), (2, 0)])
 def test_a_signal_before_the_options_are_read_counts(launcher, folder, ranks, delay, number, code):
     write_history(folder, 200)
     run = conftest.start(launcher, folder, [CASE, dict(checkpoint="state.h5")], ranks)

@@ -113,7 +113,7 @@ def special():
 
 
 def test_c_equals_python(table, file, program):
-    given = np.vstack([contacts(3000), special()])
+    given = np.vstack([contacts(400), special()])
     status, force, derivative = by_c(program, file, given)
     expected = by_python(table, given)
     assert not status.any() and np.isfinite(derivative).all()

@@ -97,7 +97,7 @@ def test_the_best_mass_lies_between(damper):
     assert np.isnan(damper.resonance(found[0], 1e6))
 
 
-@pytest.mark.parametrize("mass, amplitude", [(2.5e-3, 1.41e-4), (20e-3, 9.3e-5)])
+@pytest.mark.parametrize("mass, amplitude", [(2.5e-3, 1.41e-4), pytest.param(20e-3, 9.3e-5, marks=pytest.mark.slow)])
 def test_contacts_that_begin_to_slide_together_are_found_anyhow(damper, mass, amplitude):
     """By displacements or by loads along them. Some steps went to and fro: one contact slides and the other one sticks,
     and the reverse; or both slide, and nothing but a little stiffness keeps the damper from turning without end."""

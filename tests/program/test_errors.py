@@ -9,7 +9,7 @@ import pytest
 
 import capabilities
 import petsam as package
-from support import SPHERE, history
+from support import SPHERE, few, history
 
 LOOP = ("time,load_n,load_tx", (1, 1000, 60), (2, 1000, -60), (3, 1000, 20))
 NAMES = {
@@ -190,18 +190,17 @@ def test_a_run_that_stops_has_the_errors_as_far_as_it_has_come(petsam, tmp_path,
     np.testing.assert_equal(table("stopped.h5"), table("head.h5"))
 
 
-@pytest.mark.parametrize("plane", [False, True])
-def test_every_capability_has_companions(petsam, tmp_path, plane):
+@few("plane, name", [(plane, name) for plane in (False, True) for name in capabilities.cases(plane)], 16)
+def test_every_capability_has_companions(petsam, tmp_path, plane, name):
     """Also friction fields of a file, steady rolling, sliding surfaces, divided steps: all have errors."""
-    for name, (options, columns) in capabilities.cases(plane).items():
-        case = capabilities.write(plane, options, columns, tmp_path)
-        case = dict(case, output_fields="pressure", grid_n=24 if plane else (16, 8))
-        if not plane:
-            case["grid_size"] = (2.4e-3, 1.2e-3)
-        done = petsam(case, dict(errors="companion"), "-output", "one.h5", "-overwrite")
-        found = table("one.h5")
-        assert "errors of the last numbers, by runs on" in done.stdout, name
-        assert np.isfinite(found["contact_area"]["by_cells"]) or "are unknown" in done.stderr, name
+    case = capabilities.write(plane, *capabilities.cases(plane)[name], tmp_path)
+    case = dict(case, output_fields="pressure", grid_n=24 if plane else (16, 8))
+    if not plane:
+        case["grid_size"] = (2.4e-3, 1.2e-3)
+    done = petsam(case, dict(errors="companion"), "-output", "one.h5")
+    found = table("one.h5")
+    assert "errors of the last numbers, by runs on" in done.stdout
+    assert np.isfinite(found["contact_area"]["by_cells"]) or "are unknown" in done.stderr
 
 
 def test_a_life_is_lived_again(petsam, tmp_path):

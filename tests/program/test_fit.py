@@ -33,6 +33,11 @@ def there(tmp_path, monkeypatch):
     (tmp_path / "ball.opts").write_text(SHAPE)
 
 
+def twins_of(few, many):
+    """How many twins a test takes: a few, and many in a slow test."""
+    return pytest.mark.parametrize("twins", [few, pytest.param(many, marks=pytest.mark.slow)])
+
+
 def twin(chance, part=None, stroke=None, rig=2e7, noise=0.005, mu=MU, points=200, **more):
     """A loop of a part of sliding, or of a multiple of the sliding stroke; noise relative to both amplitudes."""
     backbone = Backbone(PUSH, mu, 1.0 / rig)
@@ -122,15 +127,16 @@ def test_derivatives_are_those_of_the_residuals():
 
 
 @pytest.mark.parametrize("part, stroke, rig", [(0.3, None, 2e8), (0.7, None, 2e7), (None, 1.5, 2e7), (None, 3.0, 2e8)])
-def test_bands_hold_the_truth(part, stroke, rig):
+@twins_of(6, 24)
+def test_bands_hold_the_truth(part, stroke, rig, twins):
     """Of 24 twins at least 20 within two standard deviations, which are the scatter of the numbers."""
     chance = np.random.default_rng(17)
-    found = [model.fit([twin(chance, part, stroke, rig)], PUSH) for _ in range(24)]
+    found = [model.fit([twin(chance, part, stroke, rig)], PUSH) for _ in range(twins)]
     assert all(one.state == "known" for one in found)
     for name, truth in (("friction", MU), ("compliance", 1.0 / rig)):
         values, bands = (np.array([getattr(one, end) for one in found]) for end in (name, f"{name}_sd"))
-        assert np.sum(np.abs(values - truth) < 2 * bands) >= 20, name
-        assert 0.6 < np.std(values) / np.median(bands) < 1.6, name
+        assert np.sum(np.abs(values - truth) < 2 * bands) >= twins * 20 / 24, name
+        assert (0.6 if twins == 24 else 0.35) < np.std(values) / np.median(bands) < (1.6 if twins == 24 else 2.0), name
     assert all(one.gross == bool(stroke) and abs(one.neighbours) < 0.3 for one in found)
 
 
@@ -261,10 +267,11 @@ def test_other_units_signs_and_courses(tmp_path):
         assert one.friction == pytest.approx(MU, rel=3e-3) and one.rig_stiffness == pytest.approx(2e7, rel=5e-3)
 
 
-def test_noise_of_the_displacement_bends_no_loop(tmp_path):
+@twins_of(2, 4)
+def test_noise_of_the_displacement_bends_no_loop(tmp_path, twins):
     """Just below sliding, where the loop is curved: its mean over the noise is not the loop."""
     found = []
-    for seed in range(4):
+    for seed in range(twins):
         chance = np.random.default_rng(seed)
         write(tmp_path / "lab.csv", [twin(chance, 0.95, None, 2e7, noise=0.03) for _ in range(10)])
         one = petsam.fit.analyse([petsam.fit.cycles(petsam.fit.read("lab.csv"), N)], [PUSH])
@@ -289,10 +296,11 @@ def test_the_displacement_of_a_cycle_is_smoothed_without_its_corners(tmp_path, k
     assert np.std(np.concatenate([part - part.mean() for part in left])) < 0.03 / 3
 
 
-def test_noise_of_the_displacement_makes_no_loop_stick(tmp_path):
+@twins_of(1, 4)
+def test_noise_of_the_displacement_makes_no_loop_stick(tmp_path, twins):
     """Just above sliding, on a soft rig: weights of points on steep slopes are small, so sticking at any friction and a
     loss of the rig would seem likelier than the truth."""
-    for seed in (2, 5, 7, 8):
+    for seed in (2, 5, 7, 8)[:twins]:
         chance = np.random.default_rng(seed)
         write(tmp_path / "lab.csv", [twin(chance, None, 1.02, 2e7, noise=0.03) for _ in range(12)])
         found = petsam.fit.analyse([petsam.fit.cycles(petsam.fit.read("lab.csv"), N)], [PUSH])
@@ -324,10 +332,11 @@ def test_a_loss_of_the_rig_is_in_the_band(tmp_path):
 
 
 @pytest.mark.parametrize("part, stroke, rig", [(0.8, None, 2e7), (0.6, None, 2e8), (None, 1.5, 2e7)])
-def test_bands_hold_the_truth_of_rigs_that_lose(tmp_path, part, stroke, rig):
+@twins_of(5, 20)
+def test_bands_hold_the_truth_of_rigs_that_lose(tmp_path, part, stroke, rig, twins):
     """A loss of each rig by chance, 0.5 % in the mean, nothing stated: of 20 twins 18 within two deviations."""
     numbers, chance, inside = 0, np.random.default_rng(23), {"friction": 0, "rig_stiffness": 0}
-    for _ in range(20):
+    for _ in range(twins):
         lost = 0.005 * chance.standard_normal()
         write(tmp_path / "lab.csv", [twin(chance, part, stroke, rig, loss=lost)])
         found = petsam.fit.analyse([petsam.fit.cycles(petsam.fit.read("lab.csv"), N)], [PUSH])
@@ -337,7 +346,7 @@ def test_bands_hold_the_truth_of_rigs_that_lose(tmp_path, part, stroke, rig):
             held = abs(getattr(found, name) - truth) < 2 * deviation or low < truth < high
             inside[name] += not found.identifiable or bool(held)
         numbers += found.identifiable
-    assert min(inside.values()) >= 18 and numbers >= 16, inside
+    assert min(inside.values()) >= int(0.9 * twins) and numbers >= 0.8 * twins, inside
 
 
 def test_what_is_known_beforehand_is_one_more_residual():
@@ -398,11 +407,12 @@ def beside(found, rig):
 
 
 @pytest.mark.parametrize("kind", ["slides", "slides a little", "sticks", "two loads"])
-def test_a_wrong_radius_is_in_the_bands(tmp_path, kind):
+@twins_of(2, 4)
+def test_a_wrong_radius_is_in_the_bands(tmp_path, kind, twins):
     """Given 30 % too large or too small: the bands hold the truth. With a shape that is taken to be certain they do not
     hold the rig."""
     wrong, numbers = 0, 0
-    for seed, factor in enumerate((0.7, 1.3, 0.7, 1.3)):
+    for seed, factor in enumerate((0.7, 1.3, 0.7, 1.3)[:twins]):
         chance, rig = np.random.default_rng(40 + seed), 6e7
         files, pushes = [], []
         for normal in (N, 0.4 * N)[: 2 if kind == "two loads" else 1]:
@@ -418,7 +428,7 @@ def test_a_wrong_radius_is_in_the_bands(tmp_path, kind):
         assert found.state != "rejected"
         wrong += certain.state == "rejected" or max(beside(certain, rig)) > 4.0
         numbers += found.identifiable
-    assert wrong == 4 and numbers >= 3
+    assert wrong == twins and numbers >= 0.75 * twins
 
 
 def of_power(exponent, normal):
@@ -445,24 +455,28 @@ def pushes_of(exponent):
 
 @pytest.mark.parametrize("low, high", [(0.6, 0.95), (1.2, 2.0)])
 @pytest.mark.parametrize("exponent", [1 / 3, 0.9])
-def test_several_loads_hold_friction_and_rig(tmp_path, exponent, low, high):
+@twins_of(2, 10)
+def test_several_loads_hold_friction_and_rig(tmp_path, exponent, low, high, twins):
     """Stiffness over the load like that of a ball, and nearly proportional, as of rough bodies: the bands are those of
     ten twins."""
     asides = []
-    for seed in range(10):
+    for seed in range(twins):
         chance = np.random.default_rng(300 + seed)
         rig = 10 ** chance.uniform(7.5, 8.3)
         files = at_three_loads(tmp_path / "lab.csv", chance, exponent, rig, low, high)
         found = petsam.fit.analyse(files, pushes_of(exponent))
         assert found.state == "known" and not any("shape" in note for note in found.notes)
         asides.append(beside(found, rig))
-    assert np.max(asides) < 3.0 and np.all(np.sum(np.array(asides) < 2.0, axis=0) >= 8)
+    assert np.max(asides) < 3.0 and np.all(np.sum(np.array(asides) < 2.0, axis=0) >= 0.8 * twins)
 
 
-@pytest.mark.parametrize("truth, given", [(0.45, 1 / 3), (0.6, 1 / 3), (1 / 3, 0.9)])
-def test_a_wrong_exponent_over_loads_gives_no_number(tmp_path, truth, given):
+@pytest.mark.parametrize(
+    "truth, given", [(0.45, 1 / 3), (0.6, 1 / 3), pytest.param(1 / 3, 0.9, marks=pytest.mark.slow)]
+)
+@twins_of(1, 4)
+def test_a_wrong_exponent_over_loads_gives_no_number(tmp_path, truth, given, twins):
     """In partial slip, where a free factor of the compliance would bend friction and rig by up to 100 deviations."""
-    for seed in range(4):
+    for seed in range(twins):
         chance = np.random.default_rng(300 + seed)
         rig = 10 ** chance.uniform(7.5, 8.3)
         files = at_three_loads(tmp_path / "lab.csv", chance, truth, rig, 0.6, 0.95)
@@ -470,10 +484,11 @@ def test_a_wrong_exponent_over_loads_gives_no_number(tmp_path, truth, given):
         assert found.state == "rejected" and np.isnan(found.friction) and np.isnan(found.rig_stiffness), seed
 
 
-def test_a_stiffness_that_is_no_power_of_the_load_is_in_the_bands(tmp_path):
+@twins_of(1, 3)
+def test_a_stiffness_that_is_no_power_of_the_load_is_in_the_bands(tmp_path, twins):
     """Within a percent, as of a ball with heights of 0.5 um rms at 400 N, 1 kN, 2.5 kN by petsam: the differences
     between loads would else give the rig, 15 deviations off."""
-    for seed in range(3):
+    for seed in range(twins):
         chance = np.random.default_rng(500 + seed)
         rig = 10 ** chance.uniform(7.5, 8.3)
         files = []
@@ -535,10 +550,11 @@ def test_a_pull_is_that_of_two_normal_numbers():
     )
 
 
-def test_a_loss_that_is_not_separated_is_said_and_has_a_wider_band(tmp_path):
+@twins_of(3, 8)
+def test_a_loss_that_is_not_separated_is_said_and_has_a_wider_band(tmp_path, twins):
     """A loss of 1 to 2 % that nobody stated, of small loops on a soft rig: bands and bounds hold the friction."""
     said, chance = 0, np.random.default_rng(12)
-    for _ in range(8):
+    for _ in range(twins):
         lost, part = chance.uniform(0.01, 0.02), chance.uniform(0.4, 0.6)
         curve = Backbone(PUSH, MU, 1.0 / 3e7)
         half = np.interp(part * MU * N, curve.force, curve.displacement)
@@ -549,7 +565,7 @@ def test_a_loss_that_is_not_separated_is_said_and_has_a_wider_band(tmp_path):
             said += 1
             stated = petsam.fit.analyse(files, [PUSH], loss=(0.0, 0.005))
             assert found.fit.more["loss"][1] > 1.1 * stated.fit.more["loss"][1]
-    assert said >= 2
+    assert said >= twins / 4
     slides = [recorded(tmp_path / "lab.csv", chance, PUSH, 8e-5, 2e7)]
     assert not petsam.fit.analyse(slides, [PUSH]).notes
 

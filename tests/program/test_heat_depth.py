@@ -6,6 +6,7 @@ import pytest
 from scipy.special import erf
 
 import petsam as package
+from support import few
 
 PAIR = dict(
     body1="steel", body2="Ti-6Al-4V", gap_type="sphere", gap_radius1=20e-3, gap_radius2="inf", grid_n=(17, 14),
@@ -44,8 +45,7 @@ def below(body, results, place):
     return bulk + found / (conductivity * np.sqrt(np.pi))
 
 
-@pytest.mark.parametrize("speeds", [(0, 0), (-0.4, 0), (0, 0.7)])
-@pytest.mark.parametrize("body", [1, 2])
+@few("body, speeds", [(1, (0, 0)), (2, (-0.4, 0)), (1, (-0.4, 0)), (2, (0, 0)), (1, (0, 0.7)), (2, (0, 0.7))])
 def test_below_the_surface(petsam, stress, tmp_path, body, speeds):
     petsam(dict(PAIR, body1_speed=speeds[0], body2_speed=speeds[1]))
     words = dict(input="hot.h5", body=body, quantities="temperature,mises", depths=",".join(map(str, DEPTHS)))

@@ -72,7 +72,8 @@ def fretting(tmp_path):
 def test_ranks_and_restarts_have_the_same_bits(petsam, fretting, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     fields = "-output_fields", "usual,thermal_displacement_x"
-    for ranks in (1, 2, 3):
+    fretting["grid_n"] = (13, 11)
+    for ranks in (1, 3):
         petsam(fretting, "-output", f"{ranks}.h5", *fields, ranks=ranks)
     petsam(fretting, "-checkpoint", "state.h5", "-checkpoint_every", "3", "-output", "other.h5", *fields)
     petsam(fretting, "-restart", "state.h5.1", "-output", "rest.h5", *fields)
@@ -82,7 +83,7 @@ def test_ranks_and_restarts_have_the_same_bits(petsam, fretting, tmp_path, monke
         assert abs(one["history/pressure_max"][-1] / cold - 1) > 1e-6  # so that heat has changed the contact
         for name in ("pressure", "shear_x", "thermal_displacement_z", "thermal_displacement_x"):
             whole = one[name][:]
-            for other, count in (("2.h5", 6), ("3.h5", 6), ("rest.h5", 3)):
+            for other, count in (("3.h5", 6), ("rest.h5", 3)):
                 with h5py.File(other) as file:
                     np.testing.assert_array_equal(whole[-count:], file[name][:])
 

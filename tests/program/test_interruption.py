@@ -324,7 +324,10 @@ def test_no_write_of_a_step_without_fields_harms_the_steps_before(deadly, folder
     assert tried > 10
 
 
-@pytest.mark.parametrize("more", [dict(errors="companion"), dict(errors="none", gradient="energy,swt@50um")])
+@pytest.mark.parametrize(
+    "more",
+    [dict(errors="companion"), pytest.param(dict(errors="none", gradient="energy,swt@50um"), marks=pytest.mark.slow)],
+)
 def test_no_write_of_the_tables_at_the_end_harms_the_steps(deadly, folder, more):
     """Their names are in the file before its first step, as HDF5 changes an index of names in place, piece by piece."""
     (folder / "history.csv").write_text("\n".join((folder / "history.csv").read_text().splitlines()[:13]) + "\n")

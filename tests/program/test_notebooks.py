@@ -1,5 +1,7 @@
 """The notebooks of the examples run as they are, and are stored with the outputs of a run."""
 
+import ast
+import inspect
 import json
 import os
 import re
@@ -10,6 +12,8 @@ from conftest import PROGRAM
 from support import ROOT
 
 NOTEBOOKS = sorted((ROOT / "examples" / "notebooks").glob("*.ipynb"))
+LONG = ("blade-root", "lap")  # of many steps, on their own meshes
+RUNS = [pytest.param(one, id=one.stem, marks=[pytest.mark.slow] * (one.stem in LONG)) for one in NOTEBOOKS]
 
 
 def pictures(notebook):
@@ -51,6 +55,23 @@ def test_outputs_are_stored_small_and_of_no_machine(file):
 
 
 @pytest.mark.parametrize("file", NOTEBOOKS, ids=lambda file: file.stem)
+def test_calls_of_the_package_have_its_names_and_arguments(file):
+    """Without a run: some notebooks run long."""
+    cells = json.loads(file.read_text())["cells"]
+    tree = ast.parse("\n".join("".join(cell["source"]) for cell in cells if cell["cell_type"] == "code"))
+    imports = [
+        one for one in tree.body if isinstance(one, ast.Import | ast.ImportFrom) and "petsam" in ast.unparse(one)
+    ]
+    exec(compile(ast.Module(imports, []), file.name, "exec"), names := {})
+    calls = [one for one in ast.walk(tree) if isinstance(one, ast.Call)]
+    calls = [one for one in calls if re.fullmatch(r"(petsam|joint|plot)(\.\w+)+", ast.unparse(one.func))]
+    assert calls
+    for call in calls:
+        function = eval(ast.unparse(call.func), names)
+        inspect.signature(function).bind_partial(**{one.arg: None for one in call.keywords if one.arg})
+
+
+@pytest.mark.parametrize("file", RUNS)
 def test_notebook_runs_and_shows_what_is_stored(file, tmp_path, monkeypatch):
     nbclient = pytest.importorskip("nbclient", reason="nbclient is not installed: tests/requirements-optional.txt")
     pytest.importorskip("ipykernel", reason="ipykernel is not installed: tests/requirements-optional.txt")

@@ -145,11 +145,11 @@ def test_stiffness_has_the_tangent_of_a_law_whose_offset_follows_the_pressure(pe
     )
     found = []
     for load in (700, 700 * (1 - 1e-4), 700 * (1 + 1e-4)):
-        petsam(dict(case, load_n=load), ranks=ranks)
+        petsam(dict(case, load_n=load), ranks=ranks if load == 700 else 1)
         found.append(petsam.read("disp_z", "pressure", "stiffness", "cushion"))
     assert found[0][3] == pytest.approx(soft * found[0][1], abs=1e-9 * soft * found[0][1].max())
     assert 1 / found[0][2][0, 0] == pytest.approx((found[2][0] - found[1][0]) / (700 * 2e-4), rel=1e-4)
-    petsam(dict(case, cushion=0, output_fields="usual"), ranks=ranks)
+    petsam(dict(case, cushion=0, output_fields="usual"))
     assert petsam.read("stiffness")[0][0, 0] > 1.05 * found[0][2][0, 0]
 
 

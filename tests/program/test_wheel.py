@@ -150,9 +150,12 @@ def test_given_loads_of_the_wheels_are_met(axle):
     assert [one.force[2] for one in found.wheels] == pytest.approx([60e3, 40e3], rel=1e-4)
 
 
-def test_too_much_is_an_error_that_names_it(axle):
+def test_too_much_of_an_offset_is_an_error_that_names_it(axle):
     with pytest.raises(Error, match="a wheel lifts or climbs: check offset"):
         axle.solve(Position(speed=20.0), Load(100e3, 0.9))
+
+
+def test_too_much_of_a_lateral_force_is_an_error_that_names_it(axle):
     with pytest.raises(Error, match="the wheelset climbs: reduce it"):
         axle.solve(Position(speed=20.0), Load(100e3, lateral=1e6))
 

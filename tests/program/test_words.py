@@ -3,8 +3,6 @@
 import argparse
 import math
 import re
-import subprocess
-import sys
 from functools import partial
 
 import numpy as np
@@ -318,19 +316,18 @@ def parsers():
     """The command lines: without arguments for each of the programs."""
     from petsam.apps import records
 
-    programs = [one.command for one in records() if one.command] + ["petsam-plot"]
-    return [pytest.param(support.ROOT / "scripts" / name, id=name) for name in programs]
+    return [one.command for one in records() if one.command] + ["petsam-plot"]
 
 
 @pytest.mark.parametrize("program", parsers())
-def test_an_unknown_option_is_named_before_missing_ones(program):
+def test_an_unknown_option_is_named_before_missing_ones(call, program):
     def said(*given):
-        done = subprocess.run([sys.executable, program, *given], capture_output=True, text=True, timeout=60)
-        assert done.returncode == 2
-        return done.stderr
+        code, lines = call(program, *given)
+        assert code == 2
+        return "\n".join(lines)
 
-    begin = f"{program.name}: error: unrecognized arguments: "
-    assert said("--nonsense") == f"{begin}--nonsense; see {program.name} --help\n"
+    begin = f"{program}: error: unrecognized arguments: "
+    assert said("--nonsense") == f"{begin}--nonsense; see {program} --help"
     assert said("-7x", "--nonsense=3", "--qqq").startswith(f"{begin}--nonsense=3 --qqq; see")
     assert said("--hel").startswith(f"{begin}--hel: is --help meant?")  # not taken for an abbreviation
 
