@@ -137,6 +137,21 @@ def test_wear_that_is_too_little_to_change_the_pressure(name):
 
 
 @pytest.mark.filterwarnings("ignore")
+@pytest.mark.parametrize("name, row", [("disp_x", 1), ("load_n", 2), ("load_n", 1)])
+def test_energy_of_cells_that_are_released_has_a_derivative(name, row):
+    """Cells that stick lose their contact as N falls, and their work is that of the shear so far."""
+    history = {"time": np.arange(3.0), "load_n": np.array([1000.0, 1000, 300]), "disp_x": np.array([0, 4e-7, 4.4e-7]),
+               "load_ty": np.array([0, 20.0, 8.0])}  # fmt: skip
+    found = record(contact_of(BODIES, 24)[0], history)[0].gradient("energy", [name], rtol=1e-12)[name][row]
+    works = []
+    for size in (1e-6, -1e-6):
+        changed = {**history, name: history[name].copy()}
+        changed[name][row] *= 1 + size
+        works.append(record(contact_of(BODIES, 24)[0], changed)[1].sum())
+    assert found * history[name][row] == pytest.approx((works[0] - works[1]) / 2e-6, rel=1e-4)
+
+
+@pytest.mark.filterwarnings("ignore")
 def test_a_system_whose_right_hand_side_is_rounding():
     """Steps at mid step in which all cells stick, at tolerances that rounding of later steps does not allow."""
     history = history_of(

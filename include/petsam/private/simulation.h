@@ -21,6 +21,7 @@ typedef struct _n_SamSimulation *SamSimulation;
 typedef enum {
   SAM_NOTIFY_BEGIN,       /* before the first step: `start` */
   SAM_NOTIFY_STEP_BEGINS, /* `step` */
+  SAM_NOTIFY_DIVIDED,     /* `step` is divided, as contact is lost or made under shear */
   SAM_NOTIFY_STEP,        /* `step` has been solved, or has failed, and is in the results: `result` */
   SAM_NOTIFY_CYCLE_BEGINS,
   SAM_NOTIFY_CYCLE_STEP, /* a step of a computed cycle, counted by `step` over all computed cycles: `result` */

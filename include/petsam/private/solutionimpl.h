@@ -127,7 +127,7 @@ PETSC_INTERN void           SamIncrementOpposeRow(const SamIncrement *increment,
 
 /*
   SamCellMotion - how a cell slides in a step: not at all; during the whole step; from some time on; since contact was
-  made; until contact was lost; in the first step.
+  made; until contact was lost; not before it was being lost; in the first step.
   SamIncrementGetCellMotion - returns the motion of this rank's cell k. If it slid, `share` gets the weights of the
   bounds (or pressures) before and after the step in the effective bound (or pressure), against which the slip did its
   work. Not collective.
@@ -138,12 +138,13 @@ typedef enum {
   SAM_CELL_MOTION_BEGINS,
   SAM_CELL_MOTION_ENTERS,
   SAM_CELL_MOTION_LEAVES,
+  SAM_CELL_MOTION_RELEASED,
   SAM_CELL_MOTION_FIRST
 } SamCellMotion;
 PETSC_INTERN SamCellMotion SamIncrementGetCellMotion(const SamIncrement *increment, ptrdiff_t k, double share[2]);
 /*
   SamIncrementGetShareSlopes - gets the derivatives of share[0] of this rank's cell k, which has that motion, by the
-  part of its slip with which it turns round, q0.ds/(b0 |ds|) clipped to 0 and 1, and by `slides`. Not collective.
+  part of its slip with which it turns round, q0.ds/(b0 |ds|), and by `slides`. Not collective.
   SamIncrementFindEnds - finds, after SamIncrementMeasure(), the cells with the shortest and the longest slip, which
   determine `slides`, as indices on the whole grid, and its derivatives (1/m) by the lengths of both slips; -1 and 0 if
   `slides` is 0 or 1. Changes the row that was computed last. Collective.

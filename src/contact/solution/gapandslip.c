@@ -272,20 +272,38 @@ PetscErrorCode SamIncrementMeasure(SamIncrement *s)
   loads. A cell that stuck before, or slid the other way, begins to slide at some time within the step, on average under
   b1 - (b1 - b0)/4; where it leaves the contact, it slides late and works under b0/8. That holds for slip at the edge of
   a contact that sticks. If all cells slide, and by about the same length, they begin early. If the slip itself changes
-  the bound, the mean is used. The springback of surfaces that lose contact does no work.
+  the bound, the mean is used.
+
+  A cell that stuck and loses its contact is released: its shear falls from q0 to 0, and with it what the shear has
+  stored, along the slip ds, as the friction goes to 0 before the contact is lost. Where ds follows in proportion, the
+  work is -q0.ds/2, which is exact for all cells together where their displacement is held. Springback along the shear
+  does no work. If the contact is lost as a whole, that holds for cells that slid, too, and only displacements that are
+  given count: others are unknown then. Of spheres whose N falls to 0 or nearly so in 28 random histories with 8 steps a
+  row, the energy then lacks 2 % instead of 28 in the median, and 4 instead of 50 in 9 of 10.
 */
 #define BEGUN  0.25  /* share of b0 in the bound of a cell that begins to slide */
 #define LEAVES 0.125 /* the same of one that leaves the contact later in the step */
 
+/* True if the tried solution has lost the contact as a whole. */
+static PetscBool IsApart(const SamIncrement *s)
+{
+  return s->solutions[1]->load[SAM_COMPONENT_N] > 0 ? PETSC_FALSE : PETSC_TRUE;
+}
+
 /* The part of the slip of this rank's cell k, in the row that was computed last, by which it goes back on its slip
-   before: 1 if it turned round, 0 if it went on or to the side. */
+   before: 1 if it turned round, -1 if it went on. */
 static double Reversal(const SamIncrement *s, ptrdiff_t k)
 {
-  const SamValues *a = &s->at_before;
-  const ptrdiff_t  l = k + s->grid->cells, i = k % s->grid->nx;
-  const double     x = s->row[0][i], y = s->row[1][i], size = a->b[k] * hypot(x, y);
+  static const SamComponent along[2] = {SAM_COMPONENT_TX, SAM_COMPONENT_TY};
 
-  return size > 0 ? PetscClipInterval((a->q[k] * x + a->q[l] * y) / size, 0, 1) : 0;
+  const ptrdiff_t i    = k % s->grid->nx;
+  const double    size = s->at_before.b[k] * hypot(s->row[0][i], s->row[1][i]);
+  double          work = 0;
+
+  for (int c = 0; c < 2; c++)
+    if (!IsApart(s) || !s->solutions[1]->control.force[along[c]])
+      work += s->at_before.q[k + c * (ptrdiff_t)s->grid->cells] * s->row[c][i];
+  return size > 0 ? PetscClipInterval(work / size, -1, 1) : 0;
 }
 
 /* The weight of the bound before the step, and its derivatives by the reversal and by `slides`. */
@@ -295,8 +313,13 @@ static double ShareBefore(const SamIncrement *s, SamCellMotion motion, ptrdiff_t
 
   slopes[0] = slopes[1] = 0;
   if (motion == SAM_CELL_MOTION_NONE || motion == SAM_CELL_MOTION_FIRST) return 0;
+  if (motion == SAM_CELL_MOTION_RELEASED) {
+    late = PetscMax(-Reversal(s, k), 0);
+    if (late > 0) slopes[0] = -0.5;
+    return 0.5 * late;
+  }
   if (s->follows_slip || motion == SAM_CELL_MOTION_ENTERS) return 0.5;
-  begun = motion == SAM_CELL_MOTION_BEGINS ? 1 : Reversal(s, k);
+  begun = motion == SAM_CELL_MOTION_BEGINS ? 1 : PetscMax(Reversal(s, k), 0);
   if (begun == 0) return 0.5;
   least = motion == SAM_CELL_MOTION_LEAVES ? LEAVES : BEGUN;
   late  = PetscMax(least, 0.5 * s->slides);
@@ -315,8 +338,8 @@ SamCellMotion SamIncrementGetCellMotion(const SamIncrement *s, ptrdiff_t k, doub
   double             slopes[2];
 
   if (s->solutions[0]) before = SamCellStateOf(a->p[k], a->q[k], a->q[l], a->b[k]);
-  if (now == SAM_CELL_OPEN && before == SAM_CELL_SLIP && s->solutions[1]->load[SAM_COMPONENT_N] > 0)
-    motion = SAM_CELL_MOTION_LEAVES;
+  if (now == SAM_CELL_OPEN && before != SAM_CELL_OPEN)
+    motion = before == SAM_CELL_STICK || IsApart(s) ? SAM_CELL_MOTION_RELEASED : SAM_CELL_MOTION_LEAVES;
   if (now == SAM_CELL_SLIP && before == SAM_CELL_SLIP) motion = SAM_CELL_MOTION_ALWAYS;
   if (now == SAM_CELL_SLIP && before == SAM_CELL_STICK) motion = SAM_CELL_MOTION_BEGINS;
   if (now == SAM_CELL_SLIP && before == SAM_CELL_OPEN)

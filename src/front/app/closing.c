@@ -193,6 +193,11 @@ static PetscErrorCode PrintEnergy(SamReport r)
     PetscCall(PetscPrintf(r->comm, "  %-10s  %.4g %s dissipated, error by the length of the load steps %s %.2g %%%s\n",
                           "energy", (double)r->energy[0], r->energy_unit, steps < NEGLIGIBLE ? "below" : "about",
                           100 * PetscMax(steps, NEGLIGIBLE), more));
+  if (r->divided)
+    PetscCall(PetscPrintf(r->comm,
+                          "  %-10s  %" PetscInt_FMT " of %" PetscInt_FMT
+                          " solved in parts, as contact is lost or made under shear; not with -step_divide no\n",
+                          "steps", r->divided, r->steps));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

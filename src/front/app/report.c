@@ -479,6 +479,9 @@ PetscErrorCode SamReportNews(SamReport r, SamContact contact, const SamSimulatio
   case SAM_NOTIFY_STEP_BEGINS:
     PetscCall(BeginStep(r, news->step, contact));
     break;
+  case SAM_NOTIFY_DIVIDED:
+    r->divided++;
+    break;
   case SAM_NOTIFY_STEP:
     PetscCall(EndStep(r, contact, news->result));
     break;

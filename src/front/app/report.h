@@ -70,6 +70,7 @@ struct _n_SamReport {
   SamReportWorst   worst[3];                  /* normal, tangential, equilibrium */
   SamReportWorst   edges;     /* smallest reconstructed share of the edges; step 0: reconstruction is disabled */
   double           offer;     /* time that companion runs would add, relative to that of this run; 0: nothing is said */
+  PetscInt         divided;   /* number of load steps that were divided */
   PetscReal        energy[2]; /* energy dissipated so far, and the estimate of its error, J */
   SamProgress      progress;
   SamContact       contact;           /* contact whose monitors are set; borrowed */

@@ -40,6 +40,7 @@ PetscErrorCode SamCompanionPrepare(SamCompanion *c, SamSimulation s, PetscInt in
   run->needs.steps     = SamHistoryGetCount(run->history);
   run->needs.companion = PETSC_FALSE;
   run->step_rtol       = s->step_rtol;
+  run->step_divide     = s->step_divide;
   c->steps             = 0;
   PetscCall(PetscArrayzero(c->sums, SAM_STATE_NUMBERS));
   PetscCall(SamSimulationDeclarePieces(run));

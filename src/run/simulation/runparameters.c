@@ -52,6 +52,7 @@ PetscErrorCode SamSimulationCollectParameters(SamSimulation s)
   PetscCall(SamSetupAddParameters(&s->setup, &s->parameters));
   PetscCall(AddLoads(&s->parameters, s->history, s->conditions));
   PetscCall(AddLife(&s->parameters, &s->plan));
+  if (!s->step_divide) PetscCall(SamParametersAddText(&s->parameters, "step_divide", PETSC_FALSE, "no"));
   if (s->step_rtol > 0) PetscCall(SamParametersAddReals(&s->parameters, "step_rtol", PETSC_FALSE, 1, &s->step_rtol));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

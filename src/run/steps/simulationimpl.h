@@ -71,6 +71,7 @@ struct _n_SamSimulation {
   SamSimulationStart     start;
   SamSimulationPoint     point;     /* position in the load history; steps before a restart count, too */
   PetscReal              step_rtol; /* estimated relative error allowed for a step's dissipated energy; 0: any */
+  PetscBool              step_divide; /* steps that lose or make contact under shear are divided */
   PetscBool              prepared;
   PetscBool              running; /* runs the history or the life; otherwise steps are given one by one */
   PetscBool              has_gap; /* the gap differs from that of the options */
@@ -108,7 +109,7 @@ PETSC_INTERN PetscErrorCode SamSimulationNotify(SamSimulation simulation, const 
 PETSC_INTERN PetscErrorCode SamSimulationWarn(void *simulation, const char text[], const char setting[]);
 /*
   Load steps in pieces (pieces.c). Collective. Errors: SAM_ERR_USER.
-    ReadPieces     reads -step_rtol
+    ReadPieces     reads -step_rtol and -step_divide
     DeclarePieces  declares their numbers in the state
     Try            tries step k of the history, in pieces if requested, and commits all but the last
 */
