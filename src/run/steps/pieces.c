@@ -4,9 +4,9 @@
   Problem: the energy of a step has an error that depends on its length (numbers.c). All prescribed values are
   interpolated between the pieces of the step. With -step_rtol the pieces must be so short that the estimate of each is
   at most a part of the tolerance times an energy: its own, or a fifth of the average energy of pieces of this length so
-  far, if that is more. Then the sums keep the tolerance, too. Else a step is divided where contact is lost or made under
-  shear, unless -step_divide no: where the work of its loads is not what the shear stores and the slip dissipates, by
-  more than a part of the energy of all steps so far.
+  far, if that is more. Then the sums keep the tolerance, too. Else, unless -step_divide no, a step is divided where
+  contact is lost or made under shear: where the work of its loads is not what the shear stores and the slip dissipates,
+  by more than a part of the energy of all steps so far.
 
   Algorithm, from a quarter of the step on, or from all of it:
     1. Try the piece. If its estimate is too large, reject it, and try half of it.

@@ -27,7 +27,7 @@ from ...contact import gradient
 from ...core.brief import brief
 from ...core.errors import Error, Unusable, counted, there_are
 from . import least
-from .loops import LARGE, MISFIT, VAGUE
+from .loops import LARGE, VAGUE
 from .problem import TRIALS
 
 TOLERANCES = {"normal_rtol": 1e-8, "tangential_rtol": 1e-6}  # of petsam, if the options have none
@@ -408,7 +408,7 @@ def _result(problem, best, numbers, ends=(), unsettled=False):
     chi2, freedom = float(2.0 * best.cost), len(best.fun) - len(names)
     misfit = np.sqrt(chi2 / freedom) if freedom > 0 else 0.0
     jacobian = best.jac.copy()
-    if misfit > MISFIT:  # what is known beforehand does not get worse by that
+    if misfit > least.MISFIT:  # what is known beforehand does not get worse by that
         jacobian[:count] /= misfit
     sd, correlation = least.bands(jacobian, JOINED * problem.step)
     values, sd = best.x * problem.scales, sd * problem.scales
