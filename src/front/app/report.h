@@ -100,11 +100,11 @@ PETSC_INTERN PetscErrorCode SamReportDestroy(SamReport *report);
    borrowed. Not collective. */
 PETSC_INTERN void SamReportSetAccuracy(SamReport report, const SamAccuracy *accuracy);
 /*
-  SamReportBanner - prints version, libraries, ranks, grid, bodies that are named, memory (`bytes`: memory that this
-  rank will need; the largest is printed), the checkpoint from which the run continues, and the files that it writes.
+  SamReportBanner - prints version, libraries, ranks, grid, bodies that are named, memory (`bytes`: what this rank
+  will need, and of it what does not depend on the grid; the largest is printed), the checkpoint from which the run continues, and the files that it writes.
   Collective.
 */
-PETSC_INTERN PetscErrorCode SamReportBanner(SamReport report, const SamSetup *setup, double bytes,
+PETSC_INTERN PetscErrorCode SamReportBanner(SamReport report, const SamSetup *setup, const double bytes[2],
                                             const SamSimulationStart *start);
 /*
   SamReportNews - prints a line for a step or a computed cycle (the only step of a run in full), messages and warnings,
