@@ -12,7 +12,7 @@
 #include "scaling.h"
 #include <math.h>
 
-#define NODE_BANDWIDTH  75e9   /* bytes/s of the memory that the ranks of a node share; fitted */
+#define NODE_BANDWIDTH  70e9   /* bytes/s of the memory that the ranks of a node share; fitted */
 #define NETWORK         10e9   /* bytes/s into and out of a node */
 #define NETWORK_LATENCY 2e-6   /* s of a message between nodes */
 #define NODE_LATENCY    0.5e-6 /* s of a message within a node */
