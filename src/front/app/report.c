@@ -124,33 +124,6 @@ static PetscErrorCode PrintNamed(SamReport r, SamPair pair)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/*
-  Prints what a step takes on other numbers of ranks, by a model (run/forecast/scaling.c). `bytes`: of the largest rank
-  here, and of it what does not depend on the grid; `lines`: rows of cells.
-*/
-static PetscErrorCode PrintScaling(SamReport r, PetscInt lines, int ranks, const double bytes[2],
-                                   const SamSimulationStart *start)
-{
-  const double here = ceil((double)lines / ranks);
-
-  PetscFunctionBegin;
-  if (!start->cores) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(PetscPrintf(r->comm,
-                        "  %-10s  a model, from that time and usual networks; nodes of %d cores as here; "
-                        "measure before you rely on it\n"
-                        "  %-10s  %8s %8s %10s %10s %16s\n",
-                        "on others", start->cores, "", "ranks", "nodes", "s a step", "messages", "memory per rank"));
-  for (int k = 0; k < SAM_SCALINGS; k++) {
-    const SamScalingTime *t = &start->scaling[k];
-    char                  memory[32];
-
-    SamDescribeBytes(bytes[1] + (bytes[0] - bytes[1]) * ceil((double)lines / t->ranks) / here, memory, sizeof(memory));
-    PetscCall(PetscPrintf(r->comm, "  %-10s  %8d %8d %10.2g %8.0f %% %16s\n", "", t->ranks, t->nodes, t->seconds,
-                          100 * t->messages / t->seconds, memory));
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 PetscErrorCode SamReportBanner(SamReport r, const SamSetup *setup, const double bytes[2],
                                const SamSimulationStart *start)
 {
@@ -196,7 +169,7 @@ PetscErrorCode SamReportBanner(SamReport r, const SamSetup *setup, const double 
     PetscCall(PetscPrintf(r->comm, "  %-10s  roughly %.2g s a step, %.2g s in all%s; nothing is solved (-dry_run)\n",
                           "time", start->seconds, start->seconds * (double)start->steps,
                           start->cyclic ? " to there" : ""));
-  PetscCall(PrintScaling(r, grid->ny, ranks, (const double[2]){most, bytes[1]}, start));
+  PetscCall(SamReportScaling(r, grid->ny, ranks, (const double[2]){most, bytes[1]}, start));
   if (start->when[0]) PetscCall(PetscPrintf(r->comm, "  %-10s  %s\n", "checkpoint", start->when));
   PetscCall(PrintRestart(r, start));
   PetscCall(PetscPrintf(r->comm, "\n"));

@@ -126,6 +126,12 @@ PETSC_INTERN void SamReportKeepSummaries(SamReport report, SamContact contact);
   Collective on the viewer.
 */
 PETSC_INTERN PetscErrorCode SamStepView(const SamStep *step, SamContact contact, PetscBool profile, PetscViewer viewer);
+/*
+  SamReportScaling - prints what a step takes on other numbers of ranks, by a model (run/forecast/scaling.c). `bytes`: of
+  the largest rank here, and of it what does not depend on the grid; `lines`: rows of cells. Collective.
+*/
+PETSC_INTERN PetscErrorCode SamReportScaling(SamReport report, PetscInt lines, int ranks, const double bytes[2],
+                                             const SamSimulationStart *start);
 /* Chooses the columns of the table of steps: those of the loads that are not 0 in all steps, as many as fit. */
 PETSC_INTERN void SamReportChooseColumns(SamReport report, const PetscBool loads[SAM_COMPONENTS]);
 /* Returns a number of the last step of a state, or of its last cycle; NaN: there is no number of that name. */
