@@ -64,6 +64,7 @@ PARTS = (
             "examples/manual/RESULTS.md",
             "examples/manual/PICTURES.md",
             "examples/study/README.md",
+            "examples/manual/LARGE.md",
             "examples/sphere/README.md",
             "examples/edges/README.md",
         ),

@@ -231,6 +231,26 @@ def test_dry_run_forecasts_and_writes_nothing(folder, petsam, ranks):
     assert float(told[1]) * unit == pytest.approx((folder / "out.h5").stat().st_size, rel=0.1)
 
 
+ROW = re.compile(r"^ +(\d+) +(\d+) +([\d.e+-]+) +(\d+) % +([\d.]+) (\wB)$", re.M)
+
+
+def test_dry_run_predicts_times_and_memory_on_other_ranks(folder, petsam):
+    """The memory is that which a run on so many ranks estimates; one rank sends nothing."""
+
+    def memory(ranks):
+        return re.search(r"memory +about (.*) per rank", petsam(CASE, dict(dry_run=True), ranks=ranks).stdout)[1]
+
+    done = petsam(CASE, dict(dry_run=True, fft_exchange="transpose"))
+    rows = ROW.findall(done.stdout)
+    seconds, sent = ([float(row[k]) for row in rows] for k in (2, 3))
+    assert [int(row[0]) for row in rows] == [2**k for k in range(11)]
+    assert sent[0] == 0 and sent[-1] > 90 and seconds[-1] > seconds[0]
+    assert [f"{row[4]} {row[5]}" for row in rows[:2]] == [memory(1), memory(2)]
+    told = float(re.search("roughly ([^ ]*) s", done.stdout)[1])
+    assert seconds[0] == pytest.approx(told)
+    assert "model" not in petsam(CASE).stdout
+
+
 def test_dry_run_reads_all_that_a_run_reads(folder, petsam):
     petsam(CASE, dict(checkpoint="state.h5", checkpoint_every=7))
     on = dict(CASE, restart="state.h5", output="on.h5", dry_run=True)

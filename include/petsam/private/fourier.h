@@ -109,6 +109,17 @@ PETSC_INTERN PetscErrorCode SamFourierApplySingle(SamFourier fourier, const SamF
                                                   const float *const in[], float *const out[]);
 
 /*
+  SamFourierCountTraffic - returns what a rank sends to others for one field of a pass, there and back, where rows are
+  exchanged for columns by messages. `n`: cells along x and y; `real`: size of a number, bytes. Not collective.
+*/
+typedef struct {
+  double bytes, messages;
+} SamFourierTraffic;
+
+PETSC_INTERN SamFourierTraffic SamFourierCountTraffic(const PetscInt n[2], SamFourierPeriod period, SamFourierMode mode,
+                                                      size_t real, PetscInt ranks, PetscInt rank);
+
+/*
   SamKernel - the transform of a kernel in padded mode, for convolution without wrap-around. A kernel is even or odd in
   x and in y, so its transform is real (or imaginary) and one quadrant suffices: (hx + 1)(hy + 1) doubles over
   all ranks. The values contain the normalisation of the pair of transforms.

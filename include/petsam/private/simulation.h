@@ -36,6 +36,13 @@ typedef enum {
   SAM_NOTIFY_STOPPED     /* stopped before the end, with a checkpoint: `text` says where and why */
 } SamEventKind;
 
+/* SamScalingTime - the predicted time of a step on some ranks, and the part that messages take, s. */
+#define SAM_SCALINGS 11 /* 1, 2, 4 ... 1024 ranks */
+typedef struct {
+  int    ranks, nodes;
+  double seconds, messages;
+} SamScalingTime;
+
 /* SamSimulationStart - the facts known before the first step: steps, files and restart. */
 typedef struct {
   PetscInt    steps;                 /* number of steps of the load history, or of one cycle and its approach */
@@ -47,9 +54,12 @@ typedef struct {
   const char *companions;            /* the companion runs, in words; NULL: none */
   double      share;                 /* time that they add, or would, relative to that of the run; 0: there are none */
   double      seconds;               /* rough time of a step, s; 0: not known */
-  char        when[PETSC_MAX_PATH_LEN + 256]; /* times at which checkpoints are written, in words; empty: never */
-  const char *restart;                        /* checkpoint from which the run continues; NULL: none */
-  char        after[64];                      /* position of that checkpoint, in words */
+  int         cores;                 /* of a node, for which times on other ranks are predicted; 0: they are not */
+
+  SamScalingTime scaling[SAM_SCALINGS];
+  char           when[PETSC_MAX_PATH_LEN + 256]; /* times at which checkpoints are written, in words; empty: never */
+  const char    *restart;                        /* checkpoint from which the run continues; NULL: none */
+  char           after[64];                      /* position of that checkpoint, in words */
 } SamSimulationStart;
 
 /* SamSimulationEvent - an event, with the members that its kind names; all are borrowed. */

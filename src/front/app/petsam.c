@@ -206,8 +206,8 @@ static double BytesOfGradients(const SamSetup *setup, const SamSimulationNeeds *
                       (double)setup->grid->cells;
 }
 
-/* Estimates the memory that this rank will need, bytes. */
-static PetscErrorCode EstimateMemory(SamSimulation simulation, double *bytes)
+/* Estimates the memory that this rank will need, and of it what does not depend on the grid, bytes. */
+static PetscErrorCode EstimateMemory(SamSimulation simulation, double bytes[2])
 {
   PetscMPIInt              ranks;
   double                   kept;
@@ -219,25 +219,25 @@ static PetscErrorCode EstimateMemory(SamSimulation simulation, double *bytes)
   PetscCallMPI(MPI_Comm_size(setup->grid->comm, &ranks));
   PetscCall(SamSimulationGetFiles(simulation, &files));
   PetscCall(EstimateKept(setup, &needs, ranks, &kept));
-  *bytes = BytesPerCell(setup, &needs) * (double)setup->grid->cells * (needs.companion ? 1.6 : 1);
-  if (files.checkpoint) *bytes += CHECKPOINT_BYTES * (double)setup->grid->cells;
-  *bytes += SAM_MEMORY_PROGRAM + kept + BytesOfGradients(setup, &needs, ranks) +
-            (files.checkpoint || files.output ? FILE_BYTES : 0);
+  bytes[0] = BytesPerCell(setup, &needs) * (double)setup->grid->cells * (needs.companion ? 1.6 : 1);
+  if (files.checkpoint) bytes[0] += CHECKPOINT_BYTES * (double)setup->grid->cells;
+  bytes[1] = SAM_MEMORY_PROGRAM + (files.checkpoint || files.output ? FILE_BYTES : 0);
+  bytes[0] += bytes[1] + kept + BytesOfGradients(setup, &needs, ranks);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* Rejects a run for which a node does not have enough memory. */
 static PetscErrorCode RefuseTooLarge(SamSimulation simulation, const SamOptions *from)
 {
-  double          bytes;
+  double          bytes[2];
   char            cells[64];
   const SamSetup *setup = SamSimulationGetSetup(simulation);
 
   PetscFunctionBegin;
-  PetscCall(EstimateMemory(simulation, &bytes));
+  PetscCall(EstimateMemory(simulation, bytes));
   PetscCall(PetscSNPrintf(cells, sizeof(cells), "%" PetscInt_FMT ",%" PetscInt_FMT, setup->grid->nx, setup->grid->ny));
   PetscCall(SamOptionsHeading(from, "Memory"));
-  PetscCall(SamMemoryRefuse(from->comm, bytes, "-grid_n", cells, from));
+  PetscCall(SamMemoryRefuse(from->comm, bytes[0], "-grid_n", cells, from));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -289,9 +289,9 @@ static PetscErrorCode Tell(void *context, SamContact contact, const SamSimulatio
 
   PetscFunctionBegin;
   if (news->kind == SAM_NOTIFY_BEGIN) {
-    double bytes;
+    double bytes[2];
 
-    PetscCall(EstimateMemory(run->simulation, &bytes));
+    PetscCall(EstimateMemory(run->simulation, bytes));
     PetscCall(SamReportBanner(run->report, SamSimulationGetSetup(run->simulation), bytes, news->start));
   } else {
     PetscCall(SamReportNews(run->report, contact, news));

@@ -124,11 +124,12 @@ static PetscErrorCode PrintNamed(SamReport r, SamPair pair)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamReportBanner(SamReport r, const SamSetup *setup, double bytes, const SamSimulationStart *start)
+PetscErrorCode SamReportBanner(SamReport r, const SamSetup *setup, const double bytes[2],
+                               const SamSimulationStart *start)
 {
   const SamGrid grid = setup->grid;
   PetscMPIInt   ranks;
-  double        nodes;
+  double        nodes, most = bytes[0];
   char          libraries[512], memory[32];
 
   PetscFunctionBegin;
@@ -138,7 +139,7 @@ PetscErrorCode SamReportBanner(SamReport r, const SamSetup *setup, double bytes,
   if (r->quiet) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCallMPI(MPI_Comm_size(r->comm, &ranks));
   PetscCall(CountNodes(r->comm, &nodes));
-  PetscCall(SamMax(r->comm, 1, &bytes));
+  PetscCall(SamMax(r->comm, 1, &most));
   PetscCall(DescribeLibraries(libraries, sizeof(libraries)));
   PetscCall(PetscPrintf(r->comm, "petsam %s: partial-slip contact by the semi-analytical method\n", PETSAM_VERSION));
   PetscCall(PetscPrintf(r->comm, "  %-10s  %s\n", "libraries", libraries));
@@ -154,7 +155,7 @@ PetscErrorCode SamReportBanner(SamReport r, const SamSetup *setup, double bytes,
     PetscCall(PetscPrintf(r->comm, "  %-10s  strain: loads, areas, energies and volumes per metre of length%s\n",
                           "plane", ranks > 1 ? "; one rank works, the others wait" : ""));
   PetscCall(PrintNamed(r, setup->pair));
-  SamDescribeBytes(bytes, memory, sizeof(memory));
+  SamDescribeBytes(most, memory, sizeof(memory));
   PetscCall(PetscPrintf(r->comm, "  %-10s  about %s per rank\n", "memory", memory));
   PetscCall(PetscPrintf(r->comm, "  %-10s  %" PetscInt_FMT "%s, results %s%s%s\n", "steps", start->steps,
                         start->cyclic ? " to the end of the first cycle" : "",
@@ -168,6 +169,7 @@ PetscErrorCode SamReportBanner(SamReport r, const SamSetup *setup, double bytes,
     PetscCall(PetscPrintf(r->comm, "  %-10s  roughly %.2g s a step, %.2g s in all%s; nothing is solved (-dry_run)\n",
                           "time", start->seconds, start->seconds * (double)start->steps,
                           start->cyclic ? " to there" : ""));
+  PetscCall(SamReportScaling(r, grid->ny, ranks, (const double[2]){most, bytes[1]}, start));
   if (start->when[0]) PetscCall(PetscPrintf(r->comm, "  %-10s  %s\n", "checkpoint", start->when));
   PetscCall(PrintRestart(r, start));
   PetscCall(PetscPrintf(r->comm, "\n"));

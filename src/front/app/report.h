@@ -101,11 +101,11 @@ PETSC_INTERN PetscErrorCode SamReportDestroy(SamReport *report);
    borrowed. Not collective. */
 PETSC_INTERN void SamReportSetAccuracy(SamReport report, const SamAccuracy *accuracy);
 /*
-  SamReportBanner - prints version, libraries, ranks, grid, bodies that are named, memory (`bytes`: memory that this
-  rank will need; the largest is printed), the checkpoint from which the run continues, and the files that it writes.
+  SamReportBanner - prints version, libraries, ranks, grid, bodies that are named, memory (`bytes`: what this rank
+  will need, and of it what does not depend on the grid; the largest is printed), the checkpoint from which the run continues, and the files that it writes.
   Collective.
 */
-PETSC_INTERN PetscErrorCode SamReportBanner(SamReport report, const SamSetup *setup, double bytes,
+PETSC_INTERN PetscErrorCode SamReportBanner(SamReport report, const SamSetup *setup, const double bytes[2],
                                             const SamSimulationStart *start);
 /*
   SamReportNews - prints a line for a step or a computed cycle (the only step of a run in full), messages and warnings,
@@ -127,6 +127,12 @@ PETSC_INTERN void SamReportKeepSummaries(SamReport report, SamContact contact);
   Collective on the viewer.
 */
 PETSC_INTERN PetscErrorCode SamStepView(const SamStep *step, SamContact contact, PetscBool profile, PetscViewer viewer);
+/*
+  SamReportScaling - prints what a step takes on other numbers of ranks, by a model (run/forecast/scaling.c). `bytes`: of
+  the largest rank here, and of it what does not depend on the grid; `lines`: rows of cells. Collective.
+*/
+PETSC_INTERN PetscErrorCode SamReportScaling(SamReport report, PetscInt lines, int ranks, const double bytes[2],
+                                             const SamSimulationStart *start);
 /* Chooses the columns of the table of steps: those of the loads that are not 0 in all steps, as many as fit. */
 PETSC_INTERN void SamReportChooseColumns(SamReport report, const PetscBool loads[SAM_COMPONENTS]);
 /* Returns a number of the last step of a state, or of its last cycle; NaN: there is no number of that name. */

@@ -1,6 +1,8 @@
 /* Estimates, before a step is solved, how much of the grid the contact will take, for the memory, and the time. */
 #include "forecast.h"
+#include "scaling.h"
 #include <math.h>
+#include <unistd.h>
 #include <petsam/private/advice.h>
 #include <petsam/private/balance.h>
 #include <petsam/private/elasticity.h>
@@ -103,7 +105,7 @@ PetscErrorCode SamSimulationEstimateShares(SamSimulation s, SamSimulationNeeds *
   half of the step's time. Most steps with friction need 15 of them for the shear, steps without friction 12 for the
   pressure.
 */
-PetscErrorCode SamSimulationGuessTime(SamSimulation s, double *seconds)
+static PetscErrorCode TimeStep(SamSimulation s, double *seconds)
 {
   const int products[2] = {12, 15};
   Vec       field;
@@ -125,5 +127,50 @@ PetscErrorCode SamSimulationGuessTime(SamSimulation s, double *seconds)
     PetscCall(VecDestroy(&field));
   }
   PetscCall(SamMax(s->comm, 1, seconds));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Returns the most ranks of a node: of this run if it is on several nodes, or the cores of this machine. */
+static PetscErrorCode FindCores(MPI_Comm comm, int ranks, int *cores)
+{
+  MPI_Comm    node;
+  PetscMPIInt size;
+  double      most;
+
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Comm_split_type(comm, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &node));
+  PetscCallMPI(MPI_Comm_size(node, &size));
+  PetscCallMPI(MPI_Comm_free(&node));
+  most = size;
+  PetscCall(SamMax(comm, 1, &most));
+  if (most == ranks) {
+    most = PetscMax(most, (double)sysconf(_SC_NPROCESSORS_ONLN));
+    PetscCall(SamMax(comm, 1, &most));
+  }
+  *cores = (int)most;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSimulationGuessTime(SamSimulation s, SamSimulationStart *start)
+{
+  const SamGrid      g       = s->setup.grid;
+  SamScaling         scaling = {.n        = {g->nx, g->ny},
+                                .periodic = SamElasticityGetTraits(s->setup.elasticity).periodic,
+                                .friction = s->needs.friction};
+  const SamOptions   from    = {s->comm, NULL};
+  SamFourierSettings fft     = {.send = PETSC_FALSE};
+  PetscMPIInt        ranks;
+
+  PetscFunctionBegin;
+  PetscCall(TimeStep(s, &start->seconds));
+  if (SamGridIsRow(g)) PetscFunctionReturn(PETSC_SUCCESS); /* one rank works */
+  PetscCall(SamFourierSettingsFromOptions(&fft, &from));
+  PetscCallMPI(MPI_Comm_size(s->comm, &ranks));
+  scaling.ranks   = ranks;
+  scaling.send    = fft.send;
+  scaling.seconds = start->seconds;
+  PetscCall(FindCores(s->comm, ranks, &scaling.cores));
+  start->cores = scaling.cores;
+  for (int k = 0; k < SAM_SCALINGS; k++) start->scaling[k] = SamScalingPredict(&scaling, 1 << k, scaling.cores);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

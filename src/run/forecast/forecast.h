@@ -18,7 +18,7 @@ PETSC_INTERN PetscErrorCode SamSimulationCheckSteps(SamSimulation simulation);
   Not collective.
 */
 PETSC_INTERN PetscErrorCode SamSimulationEstimateShares(SamSimulation simulation, SamSimulationNeeds *needs);
-/* SamSimulationGuessTime - estimates the time of a step on this machine (s). Collective. */
-PETSC_INTERN PetscErrorCode SamSimulationGuessTime(SamSimulation simulation, double *seconds);
+/* SamSimulationGuessTime - estimates the time of a step on this machine, and on other numbers of ranks. Collective. */
+PETSC_INTERN PetscErrorCode SamSimulationGuessTime(SamSimulation simulation, SamSimulationStart *start);
 
 #endif

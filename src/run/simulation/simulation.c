@@ -157,8 +157,12 @@ static PetscErrorCode Begin(SamSimulation s, PetscBool writes)
     start->replaced = SamOutputHasReplaced(s->output);
     PetscCall(SamSimulationForecast(s, start->size, sizeof(start->size)));
   }
-  if (!writes) PetscCall(SamSimulationGuessTime(s, &start->seconds));
+  if (!writes) PetscCall(SamSimulationGuessTime(s, start));
   if (s->errors) start->seconds *= 1 + start->share;
+  for (int k = 0; k < SAM_SCALINGS && s->errors; k++) {
+    start->scaling[k].seconds *= 1 + start->share;
+    start->scaling[k].messages *= 1 + start->share;
+  }
   SamSimulationDescribeCheckpoints(s, start->when, sizeof(start->when));
   PetscCall(SamSimulationNotify(s, &(SamSimulationEvent){.kind = SAM_NOTIFY_BEGIN, .start = start}));
   PetscCall(SamAdviceBegin(&s->advice));

@@ -1,8 +1,8 @@
 """Random problems of all capabilities on several ranks: the same bits as on one, and an end.
 
-A problem joins two cases of capabilities.py on a random grid under random loads. It runs on one rank and on 2, 3 or 5;
-half of the problems have so few rows of cells that some ranks are without. What differs or does not end is a fault; a
-pair that petsam rejects is drawn again.
+A problem joins two cases of capabilities.py on a random grid under random loads. It runs on one rank and on 2, 3 or 5,
+or on as many as --ranks says, which exchange rows as --exchange says; half of the problems have so few rows of cells
+that some ranks are without. What differs or does not end is a fault; a pair that petsam rejects is drawn again.
 """
 
 import subprocess
@@ -15,12 +15,13 @@ from kinds import Outcome, codes_of
 from support import flatten
 from test_every_capability import read
 
-OPTIONS = dict(trials=60)
+OPTIONS = dict(trials=60, ranks=0, cells=40, exchange=("auto", "transpose"))  # ranks 0: 2, 3 or 5
 
 
-def draw(rng, folder):
+def draw(rng, folder, given):
     """Name, options and ranks of a random problem, whose history is written into the folder."""
     plane, ranks = bool(rng.random() < 0.4), int(rng.choice([2, 3, 5]))
+    ranks = given.ranks or ranks
     cases = capabilities.cases(plane)
     names = rng.choice(list(cases), 2, replace=False)
     options, columns = {}, {}
@@ -31,7 +32,8 @@ def draw(rng, folder):
     if "disp_x" in (columns or {}):
         columns.pop("load_tx", None)
     few = bool(rng.random() < 0.5)
-    nx, ny = int(rng.integers(14, 40)), int(rng.integers(2, ranks) if few and ranks > 2 else rng.integers(5, 24))
+    nx = int(rng.integers(14, given.cells))
+    ny = int(rng.integers(2, ranks) if few and ranks > 2 else rng.integers(5, given.cells * 3 // 5))
     options["grid_n"] = nx if plane else (nx, ny)
     options["friction"] = float(rng.uniform(0.1, 0.8))
     options["steps"] = int(rng.integers(1, 4))
@@ -63,11 +65,11 @@ def differences(one, many):
 def trial(seed, folder, given):
     """What differs; None: the problem is rejected."""
     launcher = conftest.launcher_words()
-    name, case, ranks = draw(np.random.default_rng(seed), folder)
+    name, case, ranks = draw(np.random.default_rng(seed), folder, given)
     code = run(launcher, folder, case, 1, "one.h5")
     if code in (2, 3):
         return None
-    other = run(launcher, folder, case, ranks, "many.h5")
+    other = run(launcher, folder, dict(case, fft_exchange=given.exchange), ranks, "many.h5")
     if other != code:
         fault = f"exit {other}, on one rank {code}: {' '.join(flatten([case]))}"
     else:
