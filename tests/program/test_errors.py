@@ -376,7 +376,7 @@ def test_a_rotation_that_begins_with_the_contact_has_no_limit(petsam, tmp_path, 
     petsam(case, history(tmp_path / "b.csv", columns, (0, 1000, 0, 0), *rows), "-output", "apart.h5")
     assert table("apart.h5")["rot_z"]["by_steps"] < 0.05
     punch = dict(gap_radius1=None, gap_radius2=None, gap_type="punch", gap_flat_radius=8e-4, gap_edge_radius=1e-2)
-    petsam(case, punch, history(tmp_path / "c.csv", columns, *rows), "-output", "flat.h5")
+    petsam({**case, **punch}, history(tmp_path / "c.csv", columns, *rows), "-output", "flat.h5")
     assert table("flat.h5")["rot_z"]["by_steps"] < 0.05
 
 
