@@ -352,3 +352,76 @@ def test_billions_of_steps_are_judged_at_the_ends_of_rows(petsam, loop):
     """Twice their number is beyond an integer."""
     many = dict(loop, steps=700000000)
     assert re.search(r"steps +2100000000,", petsam(many, "-errors", "companion", "-dry_run").stdout)
+
+
+@pytest.mark.parametrize("steps, torque", [(4, 0.02), (8, -0.01)])
+def test_a_rotation_that_begins_with_the_contact_has_no_limit(petsam, tmp_path, steps, torque):
+    """It grows by the same for each halving of the steps; after a row of N alone, or by a flat punch, it does not."""
+    rows = ((1, 1000, torque, 50),)
+    case = {
+        **SPHERE,
+        "load_n": None,
+        "grid_n": 32,
+        "grid_size": 2.4e-3,
+        "friction": 0.5,
+        "steps": steps,
+        "errors": "companion",
+    }
+    columns = "time,load_n,load_mz,load_tx"
+    done = petsam(case, history(tmp_path / "a.csv", columns, *rows), "-output", "together.h5")
+    found = table("together.h5")["rot_z"]
+    assert found["by_steps"] == 1 and found["cause"] == b"steps" and found["by_cells"] < 0.2
+    assert "rot_z unknown" in done.stderr and "give a first row of N alone" in done.stderr
+    assert np.isnan(package.open("together.h5").history["rot_z_error"][-1])
+    petsam(case, history(tmp_path / "b.csv", columns, (0, 1000, 0, 0), *rows), "-output", "apart.h5")
+    assert table("apart.h5")["rot_z"]["by_steps"] < 0.05
+    punch = dict(gap_radius1=None, gap_radius2=None, gap_type="punch", gap_flat_radius=8e-4, gap_edge_radius=1e-2)
+    petsam({**case, **punch}, history(tmp_path / "c.csv", columns, *rows), "-output", "flat.h5")
+    assert table("flat.h5")["rot_z"]["by_steps"] < 0.05
+
+
+def test_a_shear_at_a_sharp_edge_has_no_limit(petsam):
+    punch = dict(gap_radius1=None, gap_radius2=None, gap_type="punch", gap_flat_radius=5e-4, gap_edge_radius=1e-6)
+    case = {**SPHERE, **punch, "load_n": 1.0, "load_tx": 0.2, "friction": 0.5, "grid_size": 2e-3, "grid_n": 64}
+    done = petsam(case, "-errors", "companion", "-output", "own.h5")
+    found = table("own.h5")
+    assert found["shear_max"]["by_cells"] == 1 and "shear_max unknown" in done.stderr
+    assert found["disp_z"]["error"] < 0.02
+
+
+PLANE = dict(
+    elasticity="plane", gap_type="ellipsoid", gap_radius1=None, gap_radius2=None, gap_radius_x=0.05, gap_radius_y="inf"
+)
+FEW = {
+    "sphere": dict(grid_size=2.4e-3, grid_n=48),
+    "one cell": dict(grid_size=2.4e-3, grid_n=49),
+    "row": dict(PLANE, grid_size=2.4e-3, grid_n=48),
+}
+
+
+@pytest.mark.parametrize("name", FEW)
+def test_of_few_cells_across_nothing_is_known(petsam, tmp_path, name):
+    """In the first step and the last one, but not between them."""
+    most = 1e5 if name == "row" else 1000
+    case = {**SPHERE, "load_n": None, "steps": 1, **FEW[name]}
+    case.update(
+        history(
+            tmp_path / "a.csv", LOOP[0], (1, most * 1e-3, 0), (2, most, 0), (3, most, most / 20), (4, most * 1e-3, 0)
+        )
+    )
+    done = petsam(case, "-errors", "companion", "-output", "own.h5")
+    found = table("own.h5")
+    for number in ("pressure_max", "contact_area"):
+        assert found[number]["by_cells"] >= 1, number
+        errors = package.open("own.h5").history[f"{number}_error"]
+        assert np.array_equal(np.isnan(errors), [True, False, False, True]), number
+    assert re.search(r"across in the last step.*: use -grid_n \d+", done.stderr)
+    petsam(
+        case,
+        history(tmp_path / "a.csv", LOOP[0], (1, most * 1e-3, 0), (2, most, 0)),
+        "-errors",
+        "companion",
+        "-output",
+        "end.h5",
+    )
+    assert all(row["by_cells"] < 1 for row in table("end.h5").values())

@@ -20,6 +20,22 @@ static void test_error_by_cells_is_the_larger_difference(void **state)
   sam_assert_close(SamErrorByCells(PETSC_TRUE, 1, lucky), 0.0125, 1e-15);
 }
 
+/* Differences of a root of the cell size, those that are lost in the wandering, that fall, that grow, that turn. */
+static void test_error_of_a_series_is_its_rest(void **state)
+{
+  const double root = 2 - PETSC_SQRT2, edge[] = {1 - (PETSC_SQRT2 - 1), 1 - 1, NAN}, falls[] = {0.5, -0.25, NAN},
+               grows[] = {0.7, 0.5, NAN}, turns[] = {1.3, 1, NAN}, alone[] = {0.7, NAN, NAN};
+
+  (void)state;
+  sam_assert_close(SamErrorOfSeries(0.1, 1, edge),
+                   (PETSC_SQRT2 - 1) / root * (PETSC_SQRT2 - 1) / (1 - (PETSC_SQRT2 - 1) / root), 1e-12);
+  sam_assert_close(SamErrorOfSeries(0.5, 1, edge), 0, 0);
+  sam_assert_close(SamErrorOfSeries(0.1, 1, falls), 0, 0);
+  sam_assert(isinf(SamErrorOfSeries(0.1, 1, grows)));
+  sam_assert_close(SamErrorOfSeries(0.1, 1, turns), 0, 0);
+  sam_assert_close(SamErrorOfSeries(0.1, 1, alone), 0, 0);
+}
+
 static void test_error_by_steps_is_the_difference_of_runs_on_the_same_cells(void **state)
 {
   const double runs[] = {2, 7, 2.5};

@@ -106,6 +106,9 @@ typedef struct {
   zone. `found`: the energy, NULL if there is none; may be NULL. Collective.
   SamAdviceTell - warns, in a line per cause, of all numbers with large errors, and proposes what mends them. Not
   collective.
+  SamAdviceFindFew - finds whether the contact under these loads is a single spot of so few cells across that nothing but the
+  given loads is known of it: `few` is their number, 0: they are enough; `more`: how many times as many resolve it.
+  Collective (width.c).
   SamAdviceEdge - appends to the message of a step whose contact reached the grid's edge a grid that is large enough for
   these loads. Not collective.
 */
@@ -118,6 +121,8 @@ PETSC_INTERN void           SamAdviceBeginCycle(SamAdvice *advice);
 PETSC_INTERN PetscErrorCode SamAdviceEnd(SamAdvice *advice, const SamSlip **found);
 PETSC_INTERN PetscErrorCode SamAdviceTell(SamAdvice *advice);
 PETSC_INTERN void           SamAdviceRenew(SamAdvice *advice);
+PETSC_INTERN PetscErrorCode SamAdviceFindFew(const SamSetup *setup, const SamControl *control, PetscReal *few,
+                                             double *more);
 PETSC_INTERN PetscErrorCode SamAdviceEdge(const SamAdvice *advice, SamStep *step);
 /*
   SamAdviceMeasurePeak - computes `change` and `finer` of the extent: solves the contact around the peak again on finer

@@ -18,10 +18,12 @@ typedef struct {
   char        name[SAM_ERROR_NAME];
   const char *unit;
   double      value, error, of[SAM_CAUSES];
-  double      cells;         /* that by the cells as companion runs tell it */
-  double      scale;         /* what errors are relative to: the absolute value, or a least value if that is more */
-  double      run[SAM_RUNS]; /* the number in the companion runs; NaN: none */
-  SamCause    cause;         /* the larger one */
+  double      cells;             /* that by the cells as companion runs tell it */
+  PetscBool   grows[SAM_CAUSES]; /* the number grows with each refinement: it has no limit */
+  double      more;              /* how many times as many cells resolve a contact of too few; 0: they are enough */
+  double      scale;             /* what errors are relative to: the absolute value, or a least value if that is more */
+  double      run[SAM_RUNS];     /* the number in the companion runs; NaN: none */
+  SamCause    cause;             /* the larger one */
   double      factor;
   PetscInt    order; /* of the error by the cells, in the cell size */
 } SamErrorRow;
@@ -38,10 +40,13 @@ typedef struct {
 /*
   SamErrorByCells - returns the error of a number by the cells: `own` is its value, `run` those of the companion runs;
   `energy`: it is an energy of bodies that do not yield.
-  SamErrorBySteps - returns the error of a number by the steps; `same`: the run on the same cells as SAM_RUN_OTHER. Both
-  are NaN if unknown. None is collective (estimates.c).
+  SamErrorOfSeries - returns the same for a number whose differences from grid to grid hardly fall, infinite if they
+  grow; 0: they fall, or that of the finer grids is at most `least`, in the number's unit.
+  SamErrorBySteps - returns the error of a number by the steps; `same`: the run on the same cells as SAM_RUN_OTHER. Those
+  by cells and by steps are NaN if unknown. None is collective (estimates.c).
 */
 PETSC_INTERN double SamErrorByCells(PetscBool energy, double own, const double run[SAM_RUNS]);
+PETSC_INTERN double SamErrorOfSeries(double least, double own, const double run[SAM_RUNS]);
 PETSC_INTERN double SamErrorBySteps(const double run[SAM_RUNS], SamRunKind same);
 
 #endif

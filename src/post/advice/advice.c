@@ -16,17 +16,10 @@
 #include <petsam/private/problemimpl.h>
 #include <math.h>
 
-/*
-  Elastic contacts with a closed-form solution need fewer cells across than others (SAM_ADVICE_CELLS): with at least 14,
-  all numbers of 9 random contacts were within 2 % of their limit unless a slip zone was narrow.
-*/
-#define FEW_CLOSED 14
 /* Part of the period above which the contact of a round body is affected by its periodic images */
 #define CROWDED 0.25
 /* A contact narrower than this part of its radius suggests that the radius is in another unit. */
 #define FLATTEST 1e-3
-#define BORDER   4    /* margin in cells of a sufficient grid; a narrower contact is none */
-#define SAME     2    /* cells by which two widths, one counted and one computed, may differ */
 #define ABSURD   4096 /* number of cells per row that wrong units may ask for */
 #define BLIND    0.98 /* edge pressure relative to the largest, above which it does not indicate the size */
 
@@ -34,73 +27,13 @@
 
 static PetscErrorCode Measure(const SamSetup *s, SamExtent *extent)
 {
-  const PetscBool    wrap    = SamElasticityGetTraits(s->elasticity).periodic;
-  const PetscReal    cell[2] = {s->grid->dx, s->grid->dy};
-  const SamSolution *solution;
-  PetscInt           first[2], n[2];
-
   PetscFunctionBegin;
-  PetscCall(SamContactGetSolution(s->contact, &solution));
-  PetscCall(SamGridMeasureZones(s->grid, solution->pressure, SAM_ADVICE_STRAY, wrap, &extent->across));
-  PetscCall(SamGridMeasureZones(s->grid, solution->pressure, 0.5, wrap, &extent->half_across));
-  PetscCall(SamGridCountZones(s->grid, solution->pressure, wrap, &extent->zones));
-  PetscCall(SamGridGetSupport(s->grid, solution->pressure, wrap, first, n));
-  for (int k = 0; k < 2; k++) extent->half[k] = k >= s->grid->axes ? 0 : 0.5 * (PetscReal)n[k] * cell[k];
-  /* A row in contact from border to border has no width along x. */
-  extent->whole =
-    (SamGridIsRow(s->grid) && extent->zones == 1 ? (PetscReal)n[0] : extent->across) > (PetscReal)s->grid->fewest - 0.5
-      ? PETSC_TRUE
-      : PETSC_FALSE;
+  PetscCall(SamAdviceMeasureZones(s, extent));
   PetscCall(SamAdviceMeasurePeak(s, extent));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamAdviceEstimateContact(const SamSetup *s, PetscBool force, PetscReal value, PetscReal half[2],
-                                        PetscBool *known)
-{
-  PetscFunctionBegin;
-  half[1] = 0;
-  if (SamGridIsRow(s->grid))
-    PetscCall(SamGapEstimateLine(s->gap, force ? value / SamPairModulus(s->pair) : 0, &half[0], known));
-  else
-    PetscCall(SamGapEstimateContact(s->gap, force, force ? value / SamPairModulus(s->pair) : value, half, known));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* The same for bodies without layers; `known`: there is a solution, and it is of finite size. */
-PetscErrorCode SamAdviceEstimate(const SamSetup *s, PetscBool force, PetscReal value, PetscReal half[2],
-                                 PetscBool *known)
-{
-  PetscFunctionBegin;
-  PetscCall(SamAdviceEstimateContact(s, force, value, half, known));
-  for (int k = 0; k < s->grid->axes; k++)
-    if (!isfinite(half[k]) || half[k] <= 0 || !SamPairIsUniform(s->pair)) *known = PETSC_FALSE;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* ---- the size of the contact ---- */
-
-/*
-  Finds the half widths and cells across: by the closed-form solution if it describes this contact, which is not so
-  after wear, for example; otherwise from the contact that was found.
-*/
-static PetscErrorCode GetWidths(SamAdvice *a)
-{
-  const SamSetup   *s       = a->setup;
-  const SamControl *control = &a->step->control;
-  const PetscReal   cell[2] = {s->grid->dx, s->grid->dy};
-  PetscReal         closed[2], cells = INFINITY;
-  PetscBool         known;
-
-  PetscFunctionBegin;
-  PetscCall(SamAdviceEstimate(s, control->force[SAM_COMPONENT_N], control->value[SAM_COMPONENT_N], closed, &known));
-  for (PetscInt k = 0; k < s->grid->axes; k++) cells = PetscMin(cells, 2 * closed[k] / cell[k]);
-  known     = known && fabs(cells - a->extent.across) <= SAME;
-  a->across = known ? cells : a->extent.across;
-  a->closed = known;
-  for (int k = 0; k < 2; k++) a->half[k] = known ? closed[k] : a->extent.half[k];
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
 
 PetscErrorCode SamAdviceCompare(const SamSetup *s, const PetscReal half[2], char text[], size_t size, PetscReal *ratio)
 {
@@ -136,24 +69,6 @@ static void Touch(SamAdvice *a)
                force ? SamUnitOn(a->setup->grid, "N") : "m", force ? "0" : "0, or the smallest separation");
 }
 
-/* Returns the fewest cells across that resolve the contact. */
-static int Fewest(const SamAdvice *a)
-{
-  return a->closed && !SamProblemYields(a->setup->problem) ? FEW_CLOSED : SAM_ADVICE_CELLS;
-}
-
-/*
-  Returns the width in cells of the spots with half of the contact, or of a narrower contact in closed form.
-
-  Below BORDER it is no contact but a load on cells, whose width is their size: of nothing but the given load anything
-  is known. The area of a sphere's contact is wrong by up to 16 % on 4 cells, by half on 3, its pressure by half on 2;
-  on a tenth of a cell the pressure is a thousandth of Hertz's. The approach is right to 8 % down to 2 cells, SAME.
-*/
-static double WidthOf(const SamAdvice *a)
-{
-  return (double)PetscMin(a->extent.half_across, a->across);
-}
-
 /* Notes the numbers that are unknown of a contact of next to no cells; units: what is said where these may be wrong. */
 static void Unresolved(SamAdvice *a, double more, const char zones[], const char units[])
 {
@@ -164,9 +79,10 @@ static void Unresolved(SamAdvice *a, double more, const char zones[], const char
 
   if (!a->error) a->error = SamContactGetNumber(a->setup->contact, "shear_max", &shear);
   (void)snprintf(names, sizeof(names), "contact_area pressure_max%s%s",
-                 !force                                      ? " load_n"
-                 : WidthOf(a) < SAME && extent->zones < SAME ? " disp_z" /* of several spots it is that of heights */
-                                                             : "",
+                 !force ? " load_n"
+                 : SamAdviceWidth(a) < SAM_ADVICE_SAME && extent->zones < SAM_ADVICE_SAME
+                   ? " disp_z" /* of several spots it is that of heights */
+                   : "",
                  shear > 0 ? " shear_max stick_area slip_max dissipated_energy" : "");
   if (a->closed) (void)snprintf(closed, sizeof(closed), ", %.2g in closed form", (double)a->across);
   /* a more special reason, with an error of 1, precedes this one */
@@ -184,14 +100,15 @@ static void Cells(SamAdvice *a)
   PetscBool        ends[2];
   /* In periodic bodies all cells may be in contact; the contact then has no width. */
   const PetscBool whole  = !SamAdviceIsStrip(a, ends) && extent->whole;
-  const int       fewest = Fewest(a);
+  const int       fewest = SamAdviceFewest(a);
   const PetscBool few    = !whole && extent->across < fewest;
   const PetscBool sharp  = fabs(extent->change) > (a->worn ? SAM_WORN_PEAK : SAM_DOUBT_LARGE) && !extent->finer;
-  const double    change = fabs((double)extent->change), more = (fewest + SAME) / (double)a->across;
-  const double    error                  = change * (a->worn ? SAM_DOUBT_LARGE / SAM_WORN_PEAK : 1);
-  const PetscBool none                   = few && WidthOf(a) < BORDER;
-  const PetscBool absurd                 = more * (double)PetscMax(s->grid->nx, s->grid->ny) > ABSURD;
-  const char     *units                  = absurd ? ": check the units, N, m, Pa" : "";
+  const double    change = fabs((double)extent->change), more = (fewest + SAM_ADVICE_SAME) / (double)a->across;
+  /* what is said of it is told whole */
+  const double    error  = a->worn && change <= SAM_WORN_PEAK ? change * SAM_DOUBT_LARGE / SAM_WORN_PEAK : change;
+  const PetscBool none   = few && SamAdviceWidth(a) < SAM_ADVICE_BORDER;
+  const PetscBool absurd = more * (double)PetscMax(s->grid->nx, s->grid->ny) > ABSURD;
+  const char     *units  = absurd ? ": check the units, N, m, Pa" : "";
   char            zones[SAM_ADVICE_TEXT] = "";
 
   if (extent->zones > 1)
@@ -419,7 +336,7 @@ PetscErrorCode SamAdviceStep(SamAdvice *a, PetscInt k, PetscBool of_laws, const 
     if (!a->worn) PetscCall(LookAt(a, LARGEST));
     /* At the grid's edge the grid determines the size of the contact. */
     if (a->extent.zones && step->check.edge <= 0 && !a->doubtful) {
-      PetscCall(GetWidths(a));
+      PetscCall(SamAdviceGetWidths(a));
       a->doubts.count = a->guesses.count = 0; /* those of the surfaces before wear */
       PetscCall(LookAt(a, a->worn ? WORN : CONTACT));
     }
@@ -487,7 +404,7 @@ static void AdviseGrid(const SamSetup *s, const PetscReal half[2], const PetscRe
   double          width[2];
 
   for (int k = 0; k < 2; k++) {
-    const double needs = 2 * ReachOf(s, half, lever, k) + BORDER * (double)cell[k];
+    const double needs = 2 * ReachOf(s, half, lever, k) + SAM_ADVICE_BORDER * (double)cell[k];
 
     width[k] = PetscMax((double)s->grid->width[k], SamAdviceRoundUp(needs));
   }
@@ -511,11 +428,11 @@ static void AdviseCells(const SamSetup *s, const PetscReal half[2], char text[],
   text[0] = '\0';
   for (int k = 0; k < s->grid->axes; k++) {
     if (2 * (half[k] + cell[k]) > s->grid->width[k]) coarse = PETSC_TRUE;
-    refine[k] = 2 * half[k] / cell[k] < FEW_CLOSED ? PETSC_TRUE : PETSC_FALSE;
+    refine[k] = 2 * half[k] / cell[k] < SAM_ADVICE_FEW_CLOSED ? PETSC_TRUE : PETSC_FALSE;
     across    = PetscMin(across, 2 * half[k] / cell[k]);
   }
-  if (!coarse || !(across < FEW_CLOSED)) return;
-  SamAdviceGridsFor(s, half, (FEW_CLOSED + SAME) / (double)across, refine, cells, width);
+  if (!coarse || !(across < SAM_ADVICE_FEW_CLOSED)) return;
+  SamAdviceGridsFor(s, half, (SAM_ADVICE_FEW_CLOSED + SAM_ADVICE_SAME) / (double)across, refine, cells, width);
   if (cells[0]) (void)snprintf(text, size, "; its cells are too wide, the contact fits into it: use %s", cells);
 }
 

@@ -4,14 +4,16 @@
 */
 #include "errorsimpl.h"
 #include <petsam/private/control.h>
+#include <petsam/private/examination.h>
 #include <petsam/private/grid.h>
 #include <petsam/private/problem.h>
 #include <petsam/private/problemimpl.h>
 #include <math.h>
 
-#define LARGE 0.12 /* error above which a warning is given: the median is two to three times the true one; */
-#define APART 0.1  /* for errors by the cells the difference to half the cells must be above this, too */
-#define AIM   0.04 /* error that the proposed cells or steps have */
+#define LARGE       0.12 /* error above which a warning is given: the median is two to three times the true one; */
+#define APART       0.1  /* for errors by the cells the difference to half the cells must be above this, too */
+#define AIM         0.04 /* error that the proposed cells or steps have */
+#define GROWS_STEPS "M_z and N begin together, and %s grows with each finer step: give a first row of N alone"
 
 /* ---- values ---- */
 
@@ -30,6 +32,11 @@ static void Raise(double *largest, double value)
 }
 
 #define BORNE 1e-3 /* of the maximum pressure on all of the contact: a load, where surfaces that attract bear none */
+
+void SamErrorsBegin(SamErrorLargest *l, const SamControl *control)
+{
+  if (l->area == 0) l->twist = control->force[SAM_COMPONENT_MZ] ? (double)control->value[SAM_COMPONENT_MZ] : 0;
+}
 
 void SamErrorsRaise(SamErrorLargest *l, SamState state)
 {
@@ -82,14 +89,29 @@ double SamErrorsByCells(SamSimulation s, const SamStateNumber *number, double va
 {
   const PetscBool energy = number->order == 2 && !strcmp(number->unit, "J") ? PETSC_TRUE : PETSC_FALSE;
 
-  return SamErrorByCells(energy && !SamErrorsYields(s), value, run);
+  return PetscMax(SamErrorByCells(energy && !SamErrorsYields(s), value, run),
+                  SamErrorOfSeries(APART * PetscMax(fabs(value), SamErrorsLeast(s, number)), value, run));
+}
+
+/*
+  True if the error of a number by the steps has no limit. The rotation by M_z in contact of radius a grows by dM_z/a^3;
+  where M_z grows with N from no contact, whose a^3 is proportional to N for round bodies, it adds the same in each
+  halving of the step in which contact begins, and so do displacements by it. Where the contact does not grow from a
+  point, as that of a flat punch, the error is small.
+*/
+static PetscBool GrowsBySteps(SamErrors e, const char unit[], double relative)
+{
+  if (e->largest.twist == 0 || !(relative > SAM_DOUBT_LARGE)) return PETSC_FALSE;
+  return !strcmp(unit, "rad") || !strcmp(unit, "m") ? PETSC_TRUE : PETSC_FALSE;
 }
 
 double SamErrorsRelativeBySteps(SamSimulation s, const SamErrorNumber *n, const double run[SAM_RUNS])
 {
   const double error = SamErrorBySteps(run, s->errors->same);
 
-  return error == 0 ? 0 : error / PetscMax(fabs(run[s->errors->same]), SamErrorsLeast(s, n->of));
+  const double relative = error == 0 ? 0 : error / PetscMax(fabs(run[s->errors->same]), SamErrorsLeast(s, n->of));
+
+  return GrowsBySteps(s->errors, n->of->unit, relative) ? NAN : relative;
 }
 
 PetscBool SamErrorsPrescribes(const SamControl *control, const char name[])
@@ -122,6 +144,9 @@ static double FactorOf(const SamErrorRow *row, SamCause cause)
 {
   const double ratio = row->of[cause] / AIM;
 
+  if (row->grows[cause]) return 0;
+  if (cause == SAM_CAUSE_CELLS && row->more > 0) return row->more;
+
   if (!(ratio > 1)) return 1;
   return cause == SAM_CAUSE_CELLS && row->order == 2 ? sqrt(ratio) : ratio;
 }
@@ -133,6 +158,19 @@ static double Magnitude(double value, const double run[SAM_RUNS])
 
   for (int k = 0; k < SAM_RUNS; k++) Raise(&most, run[k]);
   return most;
+}
+
+/* Makes errors 1, unknown, where the number has no limit, or the contact of the last step is too few cells. */
+static void FindLimits(SamErrors e, const SamStateNumber *number, SamErrorRow *row)
+{
+  const PetscBool few = e->few > 0 && !(number->join == SAM_JOIN_SUM && e->resolved) ? PETSC_TRUE : PETSC_FALSE;
+
+  row->grows[SAM_CAUSE_CELLS] = isinf(row->cells) && !few ? PETSC_TRUE : PETSC_FALSE;
+  row->grows[SAM_CAUSE_STEPS] = GrowsBySteps(e, number->unit, row->of[SAM_CAUSE_STEPS]);
+  row->more                   = few ? e->more : 0;
+  if (few) row->of[SAM_CAUSE_CELLS] = PetscMax(1, row->of[SAM_CAUSE_CELLS]);
+  if (isinf(row->of[SAM_CAUSE_CELLS])) row->of[SAM_CAUSE_CELLS] = 1;
+  if (row->grows[SAM_CAUSE_STEPS]) row->of[SAM_CAUSE_STEPS] = PetscMax(1, row->of[SAM_CAUSE_STEPS]);
 }
 
 void SamErrorsAddRow(SamSimulation s, const SamStateNumber *number, const char unit[], double value, double least,
@@ -157,6 +195,7 @@ void SamErrorsAddRow(SamSimulation s, const SamStateNumber *number, const char u
   row->cells               = SamErrorsByCells(s, number, value, run) / scale;
   row->of[SAM_CAUSE_CELLS] = row->cells;
   row->of[SAM_CAUSE_STEPS] = e->companion[SAM_RUN_OTHER].run ? SamErrorBySteps(run, e->same) / scale : 0;
+  FindLimits(e, number, row);
   for (int c = 0; c < SAM_CAUSES; c++) row->of[c] = known[c] ? closed[c] : PetscMax(row->of[c], closed[c]);
   (void)snprintf(row->name, sizeof(row->name), "%s", number->name);
   for (SamCause c = 0; c < SAM_CAUSES; c++) {
@@ -201,6 +240,7 @@ PetscErrorCode SamErrorsAddNumbers(SamSimulation s, const SamControl *control)
 static PetscBool IsLarge(const SamErrorRow *row, SamCause cause)
 {
   if (!(row->of[cause] > LARGE)) return PETSC_FALSE;
+  if (cause == SAM_CAUSE_CELLS && row->more > 0) return PETSC_TRUE;
   return cause != SAM_CAUSE_CELLS || fabs(row->value - row->run[SAM_RUN_HALF]) > APART * row->scale;
 }
 
@@ -237,6 +277,19 @@ static PetscErrorCode WarnOfFaults(SamErrors e, const SamAdvice *advice)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Adds the error of a row, and why there is no limit. */
+static void AddDoubt(SamErrors e, SamAdvice *advice, SamCause cause, const SamErrorRow *row)
+{
+  char why[SAM_DOUBT_WHY] = "";
+
+  if (row->grows[cause])
+    (void)snprintf(why, sizeof(why), cause == SAM_CAUSE_CELLS ? "%s grows with each finer grid" : GROWS_STEPS,
+                   row->name);
+  else if (cause == SAM_CAUSE_CELLS && row->more > 0)
+    (void)snprintf(why, sizeof(why), SAM_ACROSS " in the last step", "", (double)e->few, e->few == 1 ? "" : "s");
+  SamDoubtsAdd(&advice->doubts, cause, row->of[cause], FactorOf(row, cause), row->name, "%s", why);
+}
+
 PetscErrorCode SamErrorsAddDoubts(SamErrors e, SamAdvice *advice)
 {
   const SamErrorTable *t = &e->table;
@@ -246,9 +299,7 @@ PetscErrorCode SamErrorsAddDoubts(SamErrors e, SamAdvice *advice)
   for (SamCause cause = 0; cause < SAM_CAUSES; cause++) {
     advice->knows[cause] = Knows(e, cause);
     for (PetscInt k = 0; k < t->count; k++)
-      if (IsLarge(&t->row[k], cause))
-        SamDoubtsAdd(&advice->doubts, cause, t->row[k].of[cause], FactorOf(&t->row[k], cause), t->row[k].name, "%s",
-                     "");
+      if (IsLarge(&t->row[k], cause)) AddDoubt(e, advice, cause, &t->row[k]);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

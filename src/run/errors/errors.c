@@ -174,8 +174,9 @@ PetscErrorCode SamErrorsPrepare(SamSimulation s)
     for (int c = 0; c < SAM_RUNS; c++) n->mark[c] = n->base[c] = 0;
   }
   PetscCall(PetscArrayzero(e->sums, SAM_STATE_NUMBERS));
-  e->began = e->restored = PETSC_FALSE;
-  e->table               = (SamErrorTable){.count = 0};
+  e->began = e->restored = e->resolved = PETSC_FALSE;
+  e->few                               = 0;
+  e->table                             = (SamErrorTable){.count = 0};
   Describe(e, run[SAM_RUN_OTHER].increments);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -232,12 +233,14 @@ void SamErrorsCompareSteps(SamSimulation s, SamErrorNumber *n)
 /* Lets the companions solve their steps up to the end of step k. */
 static PetscErrorCode Follow(SamSimulation s, PetscInt k)
 {
-  SamErrors e               = s->errors;
-  PetscBool there[SAM_RUNS] = {PETSC_FALSE};
+  const SamControl control         = SamHistoryGetStep(s->history, k);
+  SamErrors        e               = s->errors;
+  PetscBool        there[SAM_RUNS] = {PETSC_FALSE};
 
   PetscFunctionBegin;
   for (int c = 0; c < SAM_RUNS; c++)
     if (e->companion[c].run) PetscCall(SamCompanionFollow(&e->companion[c], s, k, &there[c]));
+  SamErrorsBegin(&e->largest, &control);
   SamErrorsRaise(&e->largest, e->companion[SAM_RUN_HALF].state);
   for (PetscInt n = 0; n < e->count && there[SAM_RUN_OTHER]; n++) SamErrorsCompareSteps(s, &e->number[n]);
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -269,17 +272,18 @@ PetscErrorCode SamErrorsSet(SamSimulation s, const SamControl *control)
   PetscCall(SamContactGetState(s->setup.contact, &state)); /* makes all parts declare their numbers again */
   PetscCall(SamErrorsFind(e, state));
   SamStateJoinNumbers(state, e->sums, PETSC_FALSE);
+  PetscCall(SamAdviceFindFew(&s->setup, control, &e->few, &e->more));
+  if (!(e->few > 0) && SamErrorsGet(state, "contact_area") > 0) e->resolved = PETSC_TRUE;
   for (PetscInt i = 0; i < e->count; i++) {
     SamErrorNumber *n   = &e->number[i];
     const double    own = *SamStateReadNumbers(state, n->id), least = SamErrorsLeast(s, n->of);
-    double          run[SAM_RUNS];
+    double          run[SAM_RUNS], error;
 
     if (n->error < 0) continue;
     SamErrorsGetRuns(e, n, PETSC_FALSE, run);
-    *SamStateNumbers(state, n->error, SAM_TRIED) =
-      SamErrorsPrescribes(control, n->of->name)
-        ? 0
-        : SamErrorsByCells(s, n->of, own, run) + n->steps * PetscMax(fabs(own), least);
+    error = e->few > 0 ? NAN : SamErrorsByCells(s, n->of, own, run) + n->steps * PetscMax(fabs(own), least);
+    if (SamErrorsPrescribes(control, n->of->name)) error = 0;
+    *SamStateNumbers(state, n->error, SAM_TRIED) = isinf(error) ? NAN : error;
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

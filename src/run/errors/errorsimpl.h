@@ -20,6 +20,7 @@ typedef struct {
 /* SamErrorLargest - the largest values of all steps, which tell what is next to nothing. */
 typedef struct {
   double load, approach, area, pressure;
+  double twist; /* M_z of the step in which contact began, if given */
 } SamErrorLargest;
 
 struct _n_SamErrors {
@@ -31,6 +32,9 @@ struct _n_SamErrors {
   SamErrorLargest  largest;                 /* on half the cells */
   SamErrorLargest  committed;               /* those of the committed steps, of steps given one by one, */
   PetscBool        driven[SAM_COMPONENTS];  /* and the components that these drive */
+  PetscReal        few;                     /* cells across the contact of the last step; 0: enough */
+  double           more;                    /* how many times as many are enough */
+  PetscBool        resolved;                /* a step of this run had enough */
   PetscBool        began;                   /* the first step has been recorded */
   PetscBool        restored;                /* the companions continue from a checkpoint */
   char             unknown[SAM_MESSAGE];    /* why nothing is known of steps given one by one; empty: it is */
@@ -40,6 +44,7 @@ struct _n_SamErrors {
 
 /*
   SamErrorsGet - returns a number of the last step by its name, NaN if there is none.
+  SamErrorsBegin - notes the moment of the step in which contact begins; before its numbers are raised.
   SamErrorsRaise - raises the largest values of all steps to those of this state.
   SamErrorsGetRuns - gets a number of the companions' last steps, or its sum over all steps; NaN: they have none.
   SamErrorsLeast - returns the value below which a number is next to nothing for this contact.
@@ -55,6 +60,7 @@ struct _n_SamErrors {
   (errorrows.c) AddNumbers and AddDoubts are collective.
 */
 PETSC_INTERN double SamErrorsGet(SamState state, const char name[]);
+PETSC_INTERN void   SamErrorsBegin(SamErrorLargest *largest, const SamControl *control);
 PETSC_INTERN void   SamErrorsRaise(SamErrorLargest *largest, SamState state);
 PETSC_INTERN void SamErrorsGetRuns(SamErrors errors, const SamErrorNumber *number, PetscBool sum, double run[SAM_RUNS]);
 PETSC_INTERN double         SamErrorsLeast(SamSimulation simulation, const SamStateNumber *number);

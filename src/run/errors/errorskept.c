@@ -18,10 +18,12 @@ typedef struct {
   double   sums[SAM_ERROR_ROWS], marks[SAM_ERROR_ROWS];
 } Run;
 
+#define LARGEST 5 /* members of SamErrorLargest */
+
 /* The rest that is kept of all companions together, with the first part */
 typedef struct {
   uint64_t numbers; /* checksum of the names of the numbers */
-  double   steps[SAM_ERROR_ROWS], largest[4], driven[SAM_COMPONENTS];
+  double   steps[SAM_ERROR_ROWS], largest[LARGEST], driven[SAM_COMPONENTS];
 } Common;
 
 #define OF_RUN    4 /* notes on a companion, */
@@ -57,7 +59,7 @@ static void AddPart(SamErrors e, SamRunKind kind, Kept *k)
   if (!at) {
     n[OF_RUN]     = (SamNote){"numbers", 1, &k->common.numbers};
     n[OF_RUN + 1] = Reals("errors_by_steps", SAM_ERROR_ROWS, k->common.steps);
-    n[OF_RUN + 2] = Reals("largest", 4, k->common.largest);
+    n[OF_RUN + 2] = Reals("largest", LARGEST, k->common.largest);
     n[OF_RUN + 3] = Reals("driven", SAM_COMPONENTS, k->common.driven);
   }
   k->kind[at] = kind;
@@ -102,9 +104,9 @@ static void Pass(PetscBool back, double *number, double *kept)
 
 static void PassCommon(SamErrors e, PetscBool back, SamErrorLargest *l, Common *c)
 {
-  double *const most[4] = {&l->load, &l->approach, &l->area, &l->pressure};
+  double *const most[LARGEST] = {&l->load, &l->approach, &l->area, &l->pressure, &l->twist};
 
-  for (PetscInt k = 0; k < 4; k++) Pass(back, most[k], &c->largest[k]);
+  for (PetscInt k = 0; k < LARGEST; k++) Pass(back, most[k], &c->largest[k]);
   for (PetscInt k = 0; k < e->count; k++) Pass(back, &e->number[k].steps, &c->steps[k]);
   for (PetscInt k = 0; k < SAM_COMPONENTS; k++) {
     double driven = e->driven[k];

@@ -50,9 +50,11 @@ PetscErrorCode SamErrorsTry(SamSimulation s, const SamStep *step)
   }
   PetscCall(SamContactGetState(s->setup.contact, &state));
   PetscCall(SamErrorsFind(e, state));
+  SamErrorsBegin(&e->largest, &step->control);
   SamErrorsRaise(&e->largest, state);
   CompareStep(s);
   PetscCall(PetscArrayzero(e->sums, SAM_STATE_NUMBERS));
+  e->resolved = PETSC_FALSE;
   PetscCall(SamErrorsSet(s, &step->control));
   e->table.seconds += MPI_Wtime() - began;
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -15,6 +15,10 @@
   against 95 % by the rule above, with a median of the ratio of estimate and error of 4.2 instead of 6.0. Where bodies
   yield, whose plastic strain is of first order, energies are, too.
 
+  Where both differences have one sign and the finer one is not clearly smaller, the number has a low order, as next to
+  an edge (a root of the cell size: 0.71), or no limit: the sum of the differences to come is that of a geometric series
+  with this ratio, which has no sum from 1 on. Below a least difference that is the wandering above.
+
   Steps: the difference between two runs on the same coarse cells, one of which has half as many steps, or twice as
   many.
 */
@@ -27,6 +31,16 @@ double SamErrorByCells(PetscBool energy, double own, const double run[SAM_RUNS])
                far  = fabs(run[SAM_RUN_HALF] - run[SAM_RUN_QUARTER]) / (energy ? 8 : 2);
 
   return far > near ? far : near;
+}
+
+#define FALLS 0.7 /* ratio of the differences up to which they fall well enough for the estimate above */
+
+double SamErrorOfSeries(double least, double own, const double run[SAM_RUNS])
+{
+  const double near = own - run[SAM_RUN_HALF], ratio = near / (run[SAM_RUN_HALF] - run[SAM_RUN_QUARTER]);
+
+  if (!(ratio > FALLS) || !(fabs(near) > least)) return 0;
+  return ratio < 1 ? fabs(near) * ratio / (1 - ratio) : INFINITY;
 }
 
 double SamErrorBySteps(const double run[SAM_RUNS], SamRunKind same)
