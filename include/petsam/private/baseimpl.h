@@ -175,7 +175,7 @@ PETSC_INTERN void SamExplainNumber(const char text[], const char unit[], char wh
   after it, or the end of the text; `unit`: true if a unit follows.
   SamListUnits - writes the units that may follow, "m, mm, um or nm"; empty: none.
   SamUnitOf - returns the n-th unit for numbers in the k-th SI unit, and the power of ten between the two; for n < 0 it
-  returns the SI unit itself. NULL: there are no more.
+  returns the SI unit itself. NULL: there are no more but those with a factor, kgf and lbf.
   SamAddUnit - writes the text of an option's help with its unit, as SamOptionRow says; NULL: the text alone.
 */
 PETSC_INTERN PetscBool   SamReadReal(const char si[], const char text[], const char **end, double *value,

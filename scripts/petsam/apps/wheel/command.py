@@ -26,10 +26,12 @@ Y/Q, its lateral over its vertical force, is above Nadal's limit (tan d - mu)/(1
 wheelset that is held aside by a force at the axle's height tips over before its flange is steep: give --height.
 
 -o NAME writes NAME.csv: a row for each patch with contact point, angle, creepages, forces in the patch (n, fx, fs) and
-in the track (track_fx ...), all on the rail, maximum pressure, area, stick area, T-gamma, Y/Q and the state; NAME.png,
-of one position the sections with pressure and slip of each patch, of a sweep contact points, rolling radius difference,
-equivalent conicity (EN 15302) and T-gamma. With --wear NAME-wear.csv has the depth per distance of each place of the
-profile by the mean of all positions, and with --distance the profile after it, its estimated error, and NAME-wear.png.
+in the track (track_fx ...), all on the rail, maximum pressure, area, stick area, T-gamma, Y/Q and the state, and in
+NAME_error the error of each by the cells: it is estimated from a solution on cells twice as wide, as that behind +- in
+the printed lines; NAME.png, of one position the sections with pressure and slip of each patch, of a sweep contact
+points, rolling radius difference, equivalent conicity (EN 15302) and T-gamma. With --wear NAME-wear.csv has the depth
+per distance of each place of the profile by the mean of all positions, and with --distance the profile after it, its
+estimated error, and NAME-wear.png.
 """
 
 import sys
@@ -112,7 +114,7 @@ def carry_out(options):
         cores = 1
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # of the vehicle: printed above
-        found = profiles.solve_all(vehicle, states, cores, Progress("position", every=EVERY))
+        found = profiles.solve_all(vehicle, states, cores, Progress("position", every=EVERY), errors=True)
     table = found.table()
     print_all(options, found, table)
     written = []
