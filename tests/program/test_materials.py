@@ -192,6 +192,7 @@ def test_a_body_by_its_two_numbers_is_that_of_its_moduli(text):
     other = package.run(**given, **TITANIUM)
     assert found.history["contact_area"].tolist() == other.history["contact_area"].tolist()
     assert materials.resolved(dict(body2=text)) == dict(body2_young=pytest.approx(113.8e9), body2_poisson=0.342)
+    del given["load_n"], given["output_fields"]
     for wrong in ("210GPa", "210GPa,0.5", "-1,0.3", "210GPa,0.3,1"):
         with pytest.raises(package.ContactError, match=f"-body1 {wrong}: .*or Young's modulus and Poisson's ratio"):
             package.Contact(**{**given, "body1": wrong, "body2": "steel"})
@@ -199,7 +200,7 @@ def test_a_body_by_its_two_numbers_is_that_of_its_moduli(text):
 
 def test_forces_in_units_with_a_factor_are_those_in_newtons():
     given = {name: value for name, value in NAMED.items() if value is not None and name not in ("load_tx", "load_n")}
-    for text, force in (("10kgf", 98.0665), ("20lbf", 88.964432304), ("5e7uN", 50.0), ("6e10nN", 60.0)):
+    for text, force in (("10kgf", 98.0665), ("20lbf", 88.96443230521), ("5e7uN", 50.0), ("6e10nN", 60.0)):
         found = package.run(**given, body1="steel", body2="steel", load_n=text)
         assert found.history["load_n"][-1] == pytest.approx(force, rel=1e-12)
         assert units.size(text.lstrip("0123456789e"), "N") * float(re.match("[0-9e]+", text)[0]) == pytest.approx(force)
