@@ -65,7 +65,7 @@ def _facts(found):
 
 
 def _own_facts(found):
-    """Those of this kind of result."""
+    """The facts that this kind of result has of its own."""
     if isinstance(found, Backbone):
         stuck = ", ".join(f"{one:.6g}" for one in found.stuck)
         facts = [("Mode", (found.linear, "Hz", 9)), ("Modes while all that touches sticks", f"{stuck} Hz")]

@@ -63,7 +63,7 @@ def _mean(values):
 
 
 def _scale(one, name):
-    """What the errors of a column are relative to, (rows,); 1 without a scale."""
+    """The scale that the errors of a column are relative to, (rows,); 1 without one."""
     of, power = SCALES.get(name, (name, 0.0))
     return np.abs(np.array(one[of], dtype=float)) ** power
 
