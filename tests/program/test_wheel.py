@@ -777,14 +777,14 @@ def test_errors_by_the_cells_cover_the_differences_from_much_finer_ones():
     for k in range(10):
         rail = of.Track(of.uic60(), cant=(0.025, 0.05)[k % 2])
         vehicle = Vehicle(
-            rail, of.Wheelset(of.s1002(), chance.uniform(0.3, 0.6)), chance.uniform(0.1, 0.5), Settings(cell=6e-4)
+            rail, of.Wheelset(of.s1002(), chance.uniform(0.3, 0.6)), chance.uniform(0.1, 0.5), Settings(cell=3e-4)
         )
         position = Position(y=chance.uniform(-6e-3, 6e-3), yaw=chance.uniform(-6e-3, 6e-3), speed=20.0)
         load = Load(chance.uniform(60e3, 220e3))
         found = petsam.wheel.solve_all(vehicle, [State(position, load)], errors=True).table()
         table = {column.name: np.array(column.values) for column in found}
         with vehicle.axle() as axle:
-            finer = solved_again(vehicle, axle.solve(position, load), 2e-4)
+            finer = solved_again(vehicle, axle.solve(position, load), 1e-4)
         for name in ("n", "fx", "fs", "p_max", "area", "t_gamma", "ws_z", "ws_roll", "creep_x"):
             error, true = table[f"{name}_error"], np.abs(table[name] - finer[name])
             covered.setdefault(name, []).extend(true <= error)
@@ -1110,7 +1110,8 @@ def test_a_cured_profile_is_that_of_the_standard(run, tmp_path, kind):
     words[words.index(f"--{kind}") + 1] = path
     cured = run(*words, "--unit", "mm", "--z", "up", "--mirror", kind, *ONE, "--y", "2mm")
     plain = run(*BASE, *ONE, "--y", "2mm")
-    numbers = [[*map(float, re.findall(r"-?\d+\.\d+(?:e[-+]\d+)?", text))] for text in (cured, plain)]
+    texts = [re.sub(r" \+- [-+.e\d]+", "", text) for text in (cured, plain)]  # without the errors
+    numbers = [[*map(float, re.findall(r"-?\d+\.\d+(?:e[-+]\d+)?", text))] for text in texts]
     assert len(numbers[1]) > 15
     assert numbers[0] == pytest.approx(numbers[1], rel=0.02, abs=1e-2)
 
