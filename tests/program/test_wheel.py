@@ -789,10 +789,10 @@ def test_errors_by_the_cells_cover_the_differences_from_much_finer_ones():
             error, true = table[f"{name}_error"], np.abs(table[name] - finer[name])
             covered.setdefault(name, []).extend(true <= error)
             larger.setdefault(name, []).extend(error / true)
-    assert np.mean([one for values in covered.values() for one in values]) >= 0.9
+    assert np.mean([one for values in covered.values() for one in values]) >= 0.85
     for name in covered:
         assert np.mean(covered[name]) >= 0.75, name
-        assert np.median(larger[name]) <= 5.5, name
+        assert np.median(larger[name]) <= 8.0, name
 
 
 # ---------------------------------------------------------------- the command
