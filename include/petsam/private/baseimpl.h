@@ -208,12 +208,15 @@ typedef struct {
   SamMaterialAt, SamMaterialConstantAt - return the k-th row or constant of the table; NULL if there are no more.
   SamMaterialFind - returns the material of a name, where case, blanks, hyphens and underscores do not count; NULL if
   there is none.
+  SamMaterialElastic - makes the material of Young's modulus and Poisson's ratio, as 210GPa,0.3, whose other constants
+  are not known and whose name is the text; NULL if the text is another.
   SamMaterialList - writes the names of all, separated by `between`.
   SamMaterialExplain - writes the fault of an unknown name, with the nearest one and with all.
 */
 PETSC_EXTERN const SamNamedMaterial    *SamMaterialAt(PetscInt k);
 PETSC_EXTERN const SamMaterialConstant *SamMaterialConstantAt(PetscInt k);
 PETSC_EXTERN const SamNamedMaterial    *SamMaterialFind(const char name[]);
+PETSC_INTERN const SamNamedMaterial    *SamMaterialElastic(const char text[], SamNamedMaterial *m);
 PETSC_EXTERN void                       SamMaterialList(const char between[], char text[], size_t size);
 PETSC_EXTERN void                       SamMaterialExplain(const char name[], char text[], size_t size);
 

@@ -310,33 +310,13 @@ PetscErrorCode SamBodyCreateFromParameters(MPI_Comm comm, const SamParameters *p
 
 /* ---- materials by name ---- */
 
-#define MATERIAL_NAME 64 /* characters */
-
 /* What the options of a body name of the table of materials; NULL: not named. `elastic`: a material of two numbers */
 typedef struct {
   const SamNamedMaterial *own, *layer[LAYERS];
   PetscInt                layers;
   SamNamedMaterial        elastic;
-  char                    text[MATERIAL_NAME];
+  char                    text[64];
 } Names;
-
-/* Returns the material of a modulus and a ratio, as 210GPa,0.3, or NULL; its other constants are not known. */
-static const SamNamedMaterial *FindElastic(Names *names)
-{
-  SamNamedMaterial *m = &names->elastic;
-  const char       *end;
-  double            young, poisson;
-  PetscBool         unit;
-
-  if (!SamReadReal("Pa", names->text, &end, &young, &unit) || *end != ',' || !(young > 0)) return NULL;
-  if (!SamReadReal(NULL, end + 1, &end, &poisson, &unit) || *end || !(poisson >= 0 && poisson < 0.5)) return NULL;
-  m->name    = names->text;
-  m->aliases = m->source = "";
-  for (PetscInt k = 0; k < SAM_MATERIAL_CONSTANTS; k++) m->value[k] = NAN;
-  m->value[0] = young;
-  m->value[1] = poisson;
-  return m;
-}
 
 /* Reads the option that the prefix of the body's others begins with, as -body1 for -body1_young. */
 static PetscErrorCode ReadName(const SamOptions *from, Names *names)
@@ -354,7 +334,7 @@ static PetscErrorCode ReadName(const SamOptions *from, Names *names)
   SamMaterialList(",", words, sizeof(words));
   PetscCall(SamOptionsRead(&all, NULL, 1, &row, names->text, &given));
   names->own = given ? SamMaterialFind(names->text) : NULL;
-  if (given && !names->own) names->own = FindElastic(names);
+  if (given && !names->own) names->own = SamMaterialElastic(names->text, &names->elastic);
   if (!given || names->own) PetscFunctionReturn(PETSC_SUCCESS);
   SamMaterialExplain(names->text, why, sizeof(why));
   SETERRQ(from->comm, SAM_ERR_USER, "-%s %s: %s; or Young's modulus and Poisson's ratio, 210GPa,0.3", option,

@@ -15,23 +15,28 @@
 typedef struct {
   const char *si, *name[MOST];
   int         power[MOST];
-  double      factor[MOST]; /* 0: 1 */
 } Kind;
 
-static const Kind kinds[] = {
-  {"m", {"m", "mm", "um", "nm"}, {0, -3, -6, -9}},
-  {"N", {"N", "kN", "MN", "mN", "uN", "nN", "kgf", "lbf"}, {0, 3, 6, -3, -6, -9}, {[6] = KGF, [7] = LBF}},
-  {"N/m", {"N/m", "kN/m", "MN/m", "N/mm", "mN/m", "uN/m"}, {0, 3, 6, 3, -3, -6}},
-  {"N m", {"Nm", "kNm", "Nmm", "mNm", "uNm", "nNm"}, {0, 3, -3, -3, -6, -9}},
-  {"N m/m", {"N", "kN", "mN", "uN", "nN", "Nm/m"}, {0, 3, -3, -6, -9, 0}},
-  {"Pa", {"Pa", "kPa", "MPa", "GPa"}, {0, 3, 6, 9}},
-  {"m/s", {"m/s", "mm/s", "um/s"}, {0, -3, -6}},
-  {"J/m2", {"J/m2", "mJ/m2", "uJ/m2"}, {0, -3, -6}},
-  {"s", {"s", "ms", "us"}, {0, -3, -6}},
-  {"rad", {"rad", "mrad"}, {0, -3}},
-  {"1/Pa", {"m3/Nm", "mm3/Nm"}, {0, -9}}, /* no digit, as it would be part of the number */
-  {"m3/J", {"m3/J", "mm3/J"}, {0, -9}},
-  {"1", {"%"}, {-2}}};
+static const Kind kinds[] = {{"m", {"m", "mm", "um", "nm"}, {0, -3, -6, -9}},
+                             {"N", {"N", "kN", "MN", "mN", "uN", "nN", "kgf", "lbf"}, {0, 3, 6, -3, -6, -9}},
+                             {"N/m", {"N/m", "kN/m", "MN/m", "N/mm", "mN/m", "uN/m"}, {0, 3, 6, 3, -3, -6}},
+                             {"N m", {"Nm", "kNm", "Nmm", "mNm", "uNm", "nNm"}, {0, 3, -3, -3, -6, -9}},
+                             {"N m/m", {"N", "kN", "mN", "uN", "nN", "Nm/m"}, {0, 3, -3, -6, -9, 0}},
+                             {"Pa", {"Pa", "kPa", "MPa", "GPa"}, {0, 3, 6, 9}},
+                             {"m/s", {"m/s", "mm/s", "um/s"}, {0, -3, -6}},
+                             {"J/m2", {"J/m2", "mJ/m2", "uJ/m2"}, {0, -3, -6}},
+                             {"s", {"s", "ms", "us"}, {0, -3, -6}},
+                             {"rad", {"rad", "mrad"}, {0, -3}},
+                             {"1/Pa", {"m3/Nm", "mm3/Nm"}, {0, -9}}, /* no digit, as it would be part of the number */
+                             {"m3/J", {"m3/J", "mm3/J"}, {0, -9}},
+                             {"1", {"%"}, {-2}}};
+
+/* Returns the factor of a unit beside its power of ten. */
+static double FactorOf(const char name[])
+{
+  if (!strcmp(name, "kgf")) return KGF;
+  return strcmp(name, "lbf") ? 1 : LBF;
+}
 
 /* Returns the kind of a unit; NULL if there is none, or if the option takes numbers in SI units only. */
 static const Kind *FindKind(const char unit[])
@@ -71,7 +76,7 @@ PetscBool SamReadReal(const char si[], const char text[], const char **end, doub
   for (int k = 0; kind && k < MOST && kind->name[k]; k++)
     if (strlen(kind->name[k]) == length && !strncmp(kind->name[k], name, length)) {
       *value = ReadScaled(text, size, kind->power[k]);
-      if (kind->factor[k] != 0) *value *= kind->factor[k];
+      *value *= FactorOf(kind->name[k]);
       return isfinite(*value) ? PETSC_TRUE : PETSC_FALSE;
     }
   return PETSC_FALSE;
@@ -89,7 +94,7 @@ void SamListUnits(const char unit[], char list[], size_t size)
 const char *SamUnitOf(int k, int n, int *power)
 {
   if (k >= (int)(sizeof(kinds) / sizeof(kinds[0])) || n >= MOST) return NULL;
-  if (n >= 0 && kinds[k].factor[n] != 0) return NULL;
+  if (n >= 0 && kinds[k].name[n] && FactorOf(kinds[k].name[n]) != 1) return NULL;
   *power = n < 0 ? 0 : kinds[k].power[n];
   return n < 0 ? kinds[k].si : kinds[k].name[n];
 }
