@@ -688,6 +688,8 @@ def test_command_prints_and_writes_the_numbers(command, tmp_path):
     pair = joint.Pair(tmp_path / "pair.h5", PRELOAD, **OPTIONS)
     expected = joint.backbone(pair.structure, [3e-3, 1e-2], sensor=pair.sensors["TIP"][:, 2], steps=3)
     assert "\n".join(expected.lines()) in printed
+    assert expected.lines()[0].startswith("no error of the grid is known for these numbers")
+    assert set(expected.table()[-1].values) == {expected.lines()[0]}
     assert f"bolt B: {pair.tensions['B']:.6g} N left of 0.02 N" in printed
     assert "degree lower by 2: frequency" in printed
     with open("out.csv", newline="") as file:

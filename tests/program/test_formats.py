@@ -318,6 +318,20 @@ def test_what_a_file_contains_is_told(tmp_path, file, arrays, says):
             petsam.surface.read(tmp_path / file, **SIZED, **{option: "V"})
 
 
+@pytest.mark.parametrize("file, name", [
+    ("z.npz", "z.dat"), ("z.npz", "z.txt"), ("z.npz", "w.h5"), ("z.npz", "w.mat"), ("z.h5", "z.dat"), ("z.h5", "z.npy"),
+    ("z.h5", "w.mat"), ("7.3.mat", "z.txt"), ("7.3.mat", "z.prn"),
+])  # fmt: skip
+def test_what_a_file_of_another_name_contains_is_told(tmp_path, file, name):
+    """By its first bytes, so that none of its arrays is taken for the only one."""
+    CONTAINERS[file](tmp_path / file, dict(Z=H, W=H[:5]))
+    (tmp_path / file).rename(tmp_path / name)
+    with pytest.raises(petsam.Error, match=r"contains 2 maps: it has .*(Z|W) \(.*\), .*: choose one by --dataset"):
+        petsam.surface.read(tmp_path / name, **SIZED)
+    one = petsam.surface.read(tmp_path / name, **SIZED, dataset="group/W" if file == "z.h5" else "W")
+    assert_close(one.values, H[:5] * 1e-6, 1e-12)
+
+
 def test_a_matrix_of_another_name_is_offered_the_format_table(tmp_path):
     pytest.importorskip("SurfaceTopography", reason="SurfaceTopography is not installed")
     for name in ("z.asc", "z.sur", "z"):

@@ -261,7 +261,7 @@ def test_nothing_that_slips_is_printed_without_a_deviation(command, tmp_path):
     words = ("scan.h5", "--pressure", "1MPa", "--friction", 0.25, "--steps", 1, *STEEL)
     with warnings.catch_warnings():
         warnings.simplefilter("error", RuntimeWarning)
-        assert command(*words).splitlines()[1].split()[-4:] == ["-", "-", "-", "-"]
+        assert command(*words).splitlines()[2].split()[-4:] == ["-", "-", "-", "-"]
 
 
 def test_mirror_images_join_without_a_step():
@@ -332,6 +332,11 @@ def test_command_gives_the_numbers_of_the_function(command, tmp_path):
         rows = list(csv.DictReader(file))
     assert [float(row["k_t_x [Pa/m]"]) for row in rows] == pytest.approx(expected.k_t_x, rel=1e-9)
     assert len(json.loads((tmp_path / "i.json").read_text())["elements"]) == 3
+    said = printed.splitlines()[0]
+    assert said.startswith("no error of the grid is known for these numbers") and {row["note"] for row in rows} == {
+        said
+    }
+    assert json.loads((tmp_path / "i.json").read_text())["errors"] == said
     assert (tmp_path / "i.inp").read_text().startswith("** contact") and (tmp_path / "i.png").stat().st_size > 10000
     whole = joint.of_interface(field, 1e-5, [2e7], steps=1, **pair)
     assert command("pair.h5", "--pressure", "2e7", "--friction", 0.25, "--steps", 1, "--periodic", *STEEL) == (
@@ -344,7 +349,7 @@ def test_a_rigid_body_is_twice_as_stiff(command, tmp_path):
     write(tmp_path / "pair.h5", "separation", waves(32, 1))
     words = ("pair.h5", "--friction", 0.25, "--steps", 1, "--periodic", "--body1", "steel", "--body2")
     one, two = (
-        float(command(*words, body, "--pressure", p).splitlines()[1].split()[1])
+        float(command(*words, body, "--pressure", p).splitlines()[2].split()[1])
         for body, p in (("steel", "1e7"), ("inf,0.3", "2e7"))
     )
     assert two == pytest.approx(2 * one, rel=0.03)
@@ -365,7 +370,7 @@ def test_hardness_limits_the_pressure_of_summits(command, tmp_path):
     write(tmp_path / "scan.h5", "height", waves(64, 11))
     words = ("scan.h5", "--pressure", "20MPa", "--friction", 0.25, "--steps", 1, *STEEL)
     cases = ((5, ()), (6, ("--hardness", "0.17GPa")))  # the table has a column more
-    areas = [float(command(*words, *more).splitlines()[1].split()[column]) for column, more in cases]
+    areas = [float(command(*words, *more).splitlines()[2].split()[column]) for column, more in cases]
     assert areas[1] > 1.1 * areas[0] and areas[1] >= 100 * 20e6 / 0.17e9
 
 

@@ -147,7 +147,7 @@ def test_columns_have_the_scatter_of_windows_and_units():
     part = heat.spread["h"] / heat.h
     assert np.all(part > 0) and np.all(part < heat.spread["k_n"] / heat.k_n)  # gas does not scatter
     assert heat.spread["resistance"] == pytest.approx(part * heat.resistance)
-    assert "h/(W/(m2 K))" in heat.lines()[0] and "h_gap/(S/m2)" in current.lines()[0]
+    assert "h/(W/(m2 K))" in heat.lines()[1] and "h_gap/(S/m2)" in current.lines()[1]
 
 
 @pytest.mark.parametrize("given, says", [
@@ -265,9 +265,9 @@ def test_a_hardness_says_which_stiffness_is_measured_how(command, tmp_path):
     write(tmp_path / "a.h5", "separation", waves(48, 11))
     words = ("a.h5", "--pressure", "30MPa", "--normal-only", "--periodic", *STEEL, "--conductivity", "50,50")
     said = command(*words, "--hardness", "0.2GPa").splitlines()
-    assert said[2].startswith("k_n of loading is the stiffness that image correlation measures; k_n of unloading")
-    assert "ultrasound" in said[2] and len(command(*words).splitlines()) == 2
-    unloading, loading, h = (float(said[1].split()[k]) for k in (1, 3, 4))
+    assert said[3].startswith("k_n of loading is the stiffness that image correlation measures; k_n of unloading")
+    assert "ultrasound" in said[3] and len(command(*words).splitlines()) == 3
+    unloading, loading, h = (float(said[2].split()[k]) for k in (1, 3, 4))
     assert loading < 0.9 * unloading
     assert h == pytest.approx(by_barber(1e9 * unloading, PAIR, (50, 50)), rel=1e-3)
 

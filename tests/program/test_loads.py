@@ -200,6 +200,7 @@ def test_tables_of_the_result(files, tmp_path):
 def test_a_frame_of_its_own_finds_the_flank_and_may_be_given_back(files, dovetail, tool, tmp_path):
     labels, x, force = dovetail
     out, _ = tool("f.csv", "--deck", "d.inp", "--patch", "RIGHT", "--frame", "auto", "-o", "a.csv", "--no-picture")
+    assert "  no error of the grid is known for these loads, which are sums of the given forces" in out
     frame = next(line.split()[1].rstrip(",") for line in out.splitlines() if line.startswith("  frame "))
     origin, along, z = (np.array(list(map(float, part.split(",")))) for part in frame.split(":"))
     axes = axes_of("RIGHT")

@@ -15,7 +15,7 @@ import support
 from petsam import joint, materials
 from petsam.apps.compliance import command as compliance_command
 from petsam.apps.fatigue import materials as constants
-from petsam.core import declared, options, words
+from petsam.core import declared, options, units, words
 from support import SPHERE, assert_same, bodies
 from test_joint import waves
 
@@ -183,6 +183,27 @@ def test_runs_and_contacts_take_names():
     assert np.array_equal(*pressures)
     with pytest.raises(package.ContactError, match="-body1 stel: no such material: is steel meant"):
         package.Contact(**given, body1="stel", body2="steel")
+
+
+@pytest.mark.parametrize("text", ["113.8GPa,0.342", "113800e6,.342", "113800MPa,0.342"])
+def test_a_body_by_its_two_numbers_is_that_of_its_moduli(text):
+    given = {name: value for name, value in NAMED.items() if value is not None and name != "load_tx"}
+    found = package.run(**given, body1="210GPa,0.3", body2=text)
+    other = package.run(**given, **TITANIUM)
+    assert found.history["contact_area"].tolist() == other.history["contact_area"].tolist()
+    assert materials.resolved(dict(body2=text)) == dict(body2_young=pytest.approx(113.8e9), body2_poisson=0.342)
+    del given["load_n"], given["output_fields"]
+    for wrong in ("210GPa", "210GPa,0.5", "-1,0.3", "210GPa,0.3,1"):
+        with pytest.raises(package.ContactError, match=f"-body1 {wrong}: .*or Young's modulus and Poisson's ratio"):
+            package.Contact(**{**given, "body1": wrong, "body2": "steel"})
+
+
+def test_forces_in_units_with_a_factor_are_those_in_newtons():
+    given = {name: value for name, value in NAMED.items() if value is not None and name not in ("load_tx", "load_n")}
+    for text, force in (("10kgf", 98.0665), ("20lbf", 88.96443230521), ("5e7uN", 50.0), ("6e10nN", 60.0)):
+        found = package.run(**given, body1="steel", body2="steel", load_n=text)
+        assert found.history["load_n"][-1] == pytest.approx(force, rel=1e-12)
+        assert units.size(text.lstrip("0123456789e"), "N") * float(re.match("[0-9e]+", text)[0]) == pytest.approx(force)
 
 
 def test_options_by_name_become_moduli_unless_they_are_given():

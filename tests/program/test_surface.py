@@ -490,6 +490,7 @@ def test_numbers_of_the_surface_are_printed(surface, tmp_path):
     x = np.arange(400) / 400
     np.save(tmp_path / "z.npy", np.tile(2.0 * np.sin(8 * np.pi * x), (10, 1)))
     out = "\n".join(surface("z.npy", "--body", 2, "--units", "um", "--size", "1mm,25um"))
+    assert "  no error of the grid is known for these numbers, which are of the map's own points\n" in out
     assert "Sq 1.414 um, peak to valley 4 um, from -2 um to 2 um" in out
     assert float(re.search(r"Sdq (\S+);", out).group(1)) == pytest.approx(2e-6 * 8e3 * np.pi / np.sqrt(2), rel=5e-3)
     assert "400 x 10 of 2.5 um x 2.5 um" in out and "1 mm x 25 um" in out

@@ -764,6 +764,37 @@ def test_archard_with_full_sliding_is_energy_over_friction(axle):
         assert work.sum() == pytest.approx(0.3 * way.sum(), rel=0.02)
 
 
+def solved_again(vehicle, found, cell):
+    """The table of an equilibrium at the same displacement on other cells, {name: values}."""
+    with replace(vehicle, settings=Settings(cell=cell)).axle() as axle:
+        again = axle.solve(replace(found.position, z=None, pitch_rate=None), found.load)
+    return {column.name: np.array(column.values) for column in again.table()}
+
+
+def test_errors_by_the_cells_cover_the_differences_from_much_finer_ones():
+    of = petsam.wheel
+    chance, covered, larger = np.random.default_rng(11), {}, {}
+    for k in range(10):
+        rail = of.Track(of.uic60(), cant=(0.025, 0.05)[k % 2])
+        vehicle = Vehicle(
+            rail, of.Wheelset(of.s1002(), chance.uniform(0.3, 0.6)), chance.uniform(0.1, 0.5), Settings(cell=3e-4)
+        )
+        position = Position(y=chance.uniform(-6e-3, 6e-3), yaw=chance.uniform(-6e-3, 6e-3), speed=20.0)
+        load = Load(chance.uniform(60e3, 220e3))
+        found = petsam.wheel.solve_all(vehicle, [State(position, load)], errors=True).table()
+        table = {column.name: np.array(column.values) for column in found}
+        with vehicle.axle() as axle:
+            finer = solved_again(vehicle, axle.solve(position, load), 1e-4)
+        for name in ("n", "fx", "fs", "p_max", "area", "t_gamma", "ws_z", "ws_roll", "creep_x"):
+            error, true = table[f"{name}_error"], np.abs(table[name] - finer[name])
+            covered.setdefault(name, []).extend(true <= error)
+            larger.setdefault(name, []).extend(error / true)
+    assert np.mean([one for values in covered.values() for one in values]) >= 0.85
+    for name in covered:
+        assert np.mean(covered[name]) >= 0.75, name
+        assert np.median(larger[name]) <= 8.0, name
+
+
 # ---------------------------------------------------------------- the command
 
 
@@ -786,6 +817,20 @@ def test_one_position_and_its_files(run, tmp_path):
     values = dict(zip(head.split(","), rows[0].split(",")))
     left = max(abs(float(values[f"{name}_error [1]"])) for name in ("force", "moment"))
     assert 0.0 < left <= 1e-5 and f"residual {left:.1g}\n" in text
+    assert text.startswith("+-: estimated error by the cells, from a solution on cells twice as wide\n")
+    for number, column, unit in (("N", "n", "N"), ("T-gamma", "t_gamma", "N")):
+        error = float(values[f"{column}_error [N]"])
+        assert 0.0 < error < 0.05 * float(values[f"{column} [N]"]) and re.search(
+            rf"{number} \S+ {unit} \+- {re.escape(f'{error:.2g}')}[,\n]", text
+        )
+
+
+def test_a_position_without_known_errors_says_so(run, tmp_path):
+    text = run(*BASE, *ONE, "--lateral", "5kN", "-o", tmp_path / "one", "--no-picture")
+    said = "no error of the grid is known, as a lateral force is given"
+    assert text.startswith(f"{said}\nposition 1") and "+-" not in text
+    head, row, *_ = (tmp_path / "one.csv").read_text().splitlines()
+    assert said in row and row.split(",")[head.split(",").index("n_error [N]")] == "nan"
 
 
 def test_a_table_of_a_simulation(run, tmp_path):
@@ -1065,7 +1110,8 @@ def test_a_cured_profile_is_that_of_the_standard(run, tmp_path, kind):
     words[words.index(f"--{kind}") + 1] = path
     cured = run(*words, "--unit", "mm", "--z", "up", "--mirror", kind, *ONE, "--y", "2mm")
     plain = run(*BASE, *ONE, "--y", "2mm")
-    numbers = [[*map(float, re.findall(r"-?\d+\.\d+(?:e[-+]\d+)?", text))] for text in (cured, plain)]
+    texts = [re.sub(r" \+- [-+.e\d]+", "", text) for text in (cured, plain)]  # without the errors
+    numbers = [[*map(float, re.findall(r"-?\d+\.\d+(?:e[-+]\d+)?", text))] for text in texts]
     assert len(numbers[1]) > 15
     assert numbers[0] == pytest.approx(numbers[1], rel=0.02, abs=1e-2)
 

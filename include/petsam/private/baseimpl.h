@@ -175,7 +175,7 @@ PETSC_INTERN void SamExplainNumber(const char text[], const char unit[], char wh
   after it, or the end of the text; `unit`: true if a unit follows.
   SamListUnits - writes the units that may follow, "m, mm, um or nm"; empty: none.
   SamUnitOf - returns the n-th unit for numbers in the k-th SI unit, and the power of ten between the two; for n < 0 it
-  returns the SI unit itself. NULL: there are no more.
+  returns the SI unit itself. NULL: there are no more but those with a factor, kgf and lbf.
   SamAddUnit - writes the text of an option's help with its unit, as SamOptionRow says; NULL: the text alone.
 */
 PETSC_INTERN PetscBool   SamReadReal(const char si[], const char text[], const char **end, double *value,
@@ -208,12 +208,15 @@ typedef struct {
   SamMaterialAt, SamMaterialConstantAt - return the k-th row or constant of the table; NULL if there are no more.
   SamMaterialFind - returns the material of a name, where case, blanks, hyphens and underscores do not count; NULL if
   there is none.
+  SamMaterialElastic - makes the material of Young's modulus and Poisson's ratio, as 210GPa,0.3, whose other constants
+  are not known and whose name is the text; NULL if the text is another.
   SamMaterialList - writes the names of all, separated by `between`.
   SamMaterialExplain - writes the fault of an unknown name, with the nearest one and with all.
 */
 PETSC_EXTERN const SamNamedMaterial    *SamMaterialAt(PetscInt k);
 PETSC_EXTERN const SamMaterialConstant *SamMaterialConstantAt(PetscInt k);
 PETSC_EXTERN const SamNamedMaterial    *SamMaterialFind(const char name[]);
+PETSC_INTERN const SamNamedMaterial    *SamMaterialElastic(const char text[], SamNamedMaterial *m);
 PETSC_EXTERN void                       SamMaterialList(const char between[], char text[], size_t size);
 PETSC_EXTERN void                       SamMaterialExplain(const char name[], char text[], size_t size);
 

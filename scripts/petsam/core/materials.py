@@ -128,6 +128,11 @@ def elastic(text: str) -> tuple[float, float]:
         raise words.WordError(text, form) from error
 
 
+def _elastic_of(name):
+    """Young's modulus and Poisson's ratio of a name, or of a text E,NU."""
+    return elastic(name) if isinstance(name, str) and "," in name and not has(name) else find(name)[2:4]
+
+
 def conductivity(value: Union[float, str]) -> float:
     """A thermal conductivity, W/(m K), given as a number or as the name of a material; Error if that is unknown."""
     if not isinstance(value, str):
@@ -140,7 +145,7 @@ def conductivity(value: Union[float, str]) -> float:
 
 
 def resolved(options: dict) -> dict:
-    """Options of petsam with body1 and body2, names of materials, as the moduli of the table: body1_young and so on.
+    """Options of petsam with body1 and body2, names of materials or texts E,NU, as the moduli: body1_young and so on.
 
     Moduli that are given go before the table.
     """
@@ -148,7 +153,7 @@ def resolved(options: dict) -> dict:
     for body in ("body1", "body2"):
         if (name := found.pop(body, None)) is None:
             continue
-        for constant, value in zip(("young", "poisson"), find(name)[2:4]):
+        for constant, value in zip(("young", "poisson"), _elastic_of(name)):
             if found.get(f"{body}_{constant}") is None:
                 found[f"{body}_{constant}"] = value
     return found

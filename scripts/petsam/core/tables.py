@@ -11,6 +11,7 @@ from .errors import Error, library
 from .files import need_replaceable, text_of
 from .shown import Shown
 
+UNKNOWN = "no error of the grid is known"  # the beginning of the sentence of results that have none
 HEAD = re.compile(r"(.*?)(?: \[(.*)\])?", re.DOTALL)
 
 
@@ -32,6 +33,11 @@ class Column(NamedTuple):
 def head(name, unit):
     """The head of a column in a file: pressure [Pa]."""
     return f"{name} [{unit}]" if unit else name
+
+
+def noted(columns, sentence):
+    """Columns with one more, note, that has a sentence about all numbers in each row."""
+    return [*columns, Column("note", "", "about the numbers", [sentence] * len(columns[0].values))]
 
 
 def csv_text(columns, form=repr):

@@ -6,6 +6,7 @@ from typing import Any, Optional, Union
 
 import numpy as np
 
+from ..core import units
 from ..core.declared import FOLLOWING, OPTIONS
 from ..core.errors import Error, counted, library, short, there_are
 from ..core.files import decoded, need_regular
@@ -21,8 +22,11 @@ def _measured(text):
     match = NUMBER.fullmatch(text.strip())
     if not text.strip():
         return float("nan"), ""
-    if not match or (match[3] or "N") not in FOLLOWING:
+    if not match:
         return None
+    if match[3] and match[3] not in FOLLOWING:  # one with a factor, as kgf
+        unit = units.quantity(match[3])
+        return (float(text.strip()[: match.start(3)]) * units.size(match[3], unit), unit) if unit else None
     unit, power = FOLLOWING[match[3]] if match[3] else ("", 0)
     return float(f"{match[1]}e{int(match[2] or 0) + power}"), unit
 

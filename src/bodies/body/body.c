@@ -310,30 +310,35 @@ PetscErrorCode SamBodyCreateFromParameters(MPI_Comm comm, const SamParameters *p
 
 /* ---- materials by name ---- */
 
-/* What the options of a body name of the table of materials; NULL: not named */
+/* What the options of a body name of the table of materials; NULL: not named. `elastic`: a material of two numbers */
 typedef struct {
   const SamNamedMaterial *own, *layer[LAYERS];
   PetscInt                layers;
+  SamNamedMaterial        elastic;
+  char                    text[64];
 } Names;
 
 /* Reads the option that the prefix of the body's others begins with, as -body1 for -body1_young. */
-static PetscErrorCode ReadName(const SamOptions *from, const SamNamedMaterial **own)
+static PetscErrorCode ReadName(const SamOptions *from, Names *names)
 {
   const SamOptions all = {from->comm, NULL};
-  char             option[SAM_PREFIX + 8], words[512], name[64] = "", why[640];
+  char             option[SAM_PREFIX + 8], words[512], why[700];
   PetscBool        given;
-  SamOptionRow row = {option, "material by its name (-help materials): constants that are not given", SAM_OPTION_STRING,
-                      .size = sizeof(name), .words = words};
+  SamOptionRow     row = {option, "material by its name (-help materials), or by E,nu: constants that are not given",
+                          SAM_OPTION_STRING, .size = sizeof(names->text), .words = words};
 
   PetscFunctionBegin;
+  names->text[0] = '\0';
   PetscCall(PetscStrncpy(option, SamOptionsPrefix(from), sizeof(option)));
   option[strlen(option) - 1] = '\0'; /* without the underscore */
   SamMaterialList(",", words, sizeof(words));
-  PetscCall(SamOptionsRead(&all, NULL, 1, &row, name, &given));
-  *own = given ? SamMaterialFind(name) : NULL;
-  if (!given || *own) PetscFunctionReturn(PETSC_SUCCESS);
-  SamMaterialExplain(name, why, sizeof(why));
-  SETERRQ(from->comm, SAM_ERR_USER, "-%s %s: %s", option, name, why);
+  PetscCall(SamOptionsRead(&all, NULL, 1, &row, names->text, &given));
+  names->own = given ? SamMaterialFind(names->text) : NULL;
+  if (given && !names->own) names->own = SamMaterialElastic(names->text, &names->elastic);
+  if (!given || names->own) PetscFunctionReturn(PETSC_SUCCESS);
+  SamMaterialExplain(names->text, why, sizeof(why));
+  SETERRQ(from->comm, SAM_ERR_USER, "-%s %s: %s; or Young's modulus and Poisson's ratio, 210GPa,0.3", option,
+          names->text, why);
 }
 
 /* Reads the names of the layers' materials. */
@@ -383,7 +388,7 @@ static void DescribeAll(const Names *names, const char prefix[], SamBody body)
   char         layer[SAM_PREFIX + 16];
 
   (void)snprintf(layer, sizeof(layer), "%slayer_", prefix);
-  body->own = names->own;
+  body->own = names->own == &names->elastic ? NULL : names->own;
   if (names->own) Describe(names->own, SamBodySubstrate(body), prefix, "", body->named, size);
   for (PetscInt n = 0; n < names->layers; n++)
     Describe(names->layer[n], &body->material[n], layer,
@@ -479,7 +484,7 @@ PetscErrorCode SamBodyCreateFromOptions(const SamOptions *from, SamBody *body)
   char        message[256], prefix[128];
 
   PetscFunctionBegin;
-  PetscCall(ReadName(from, &names.own));
+  PetscCall(ReadName(from, &names));
   PetscCall(ReadOwn(from, names.own, &last));
   PetscCall(ReadLayers(from, &names, m, &layers));
   if (SamPrintHelp()) last.young = 1;

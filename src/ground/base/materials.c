@@ -140,6 +140,22 @@ static PetscBool NextName(const SamNamedMaterial *m, const char **at, char plain
   return PETSC_TRUE;
 }
 
+const SamNamedMaterial *SamMaterialElastic(const char text[], SamNamedMaterial *m)
+{
+  const char *end;
+  double      young, poisson;
+  PetscBool   unit;
+
+  if (!SamReadReal("Pa", text, &end, &young, &unit) || *end != ',' || !(young > 0)) return NULL;
+  if (!SamReadReal(NULL, end + 1, &end, &poisson, &unit) || *end || !(poisson >= 0 && poisson < 0.5)) return NULL;
+  m->name    = text;
+  m->aliases = m->source = "";
+  for (PetscInt k = 0; k < SAM_MATERIAL_CONSTANTS; k++) m->value[k] = NAN;
+  m->value[0] = young;
+  m->value[1] = poisson;
+  return m;
+}
+
 const SamNamedMaterial *SamMaterialFind(const char name[])
 {
   char tried[LENGTH], plain[LENGTH];

@@ -2,13 +2,15 @@
   Units after the numbers of options: 2.6mm is 2.6e-3, to the last bit.
 
   An option's row declares its unit of SI. The units that may follow a number differ from it by powers of ten only, so
-  the number is read with another exponent.
+  the number is read with another exponent. Two units of force, which come last, differ by a factor.
 */
 #include <petsam/private/baseimpl.h>
 #include <errno.h>
 #include <stdlib.h>
 
-#define MOST 6 /* number of units that may follow */
+#define MOST 8 /* number of units that may follow */
+#define KGF  9.80665
+#define LBF  (0.45359237 * KGF)
 
 typedef struct {
   const char *si, *name[MOST];
@@ -16,7 +18,7 @@ typedef struct {
 } Kind;
 
 static const Kind kinds[] = {{"m", {"m", "mm", "um", "nm"}, {0, -3, -6, -9}},
-                             {"N", {"N", "kN", "MN", "mN", "uN", "nN"}, {0, 3, 6, -3, -6, -9}},
+                             {"N", {"N", "kN", "MN", "mN", "uN", "nN", "kgf", "lbf"}, {0, 3, 6, -3, -6, -9}},
                              {"N/m", {"N/m", "kN/m", "MN/m", "N/mm", "mN/m", "uN/m"}, {0, 3, 6, 3, -3, -6}},
                              {"N m", {"Nm", "kNm", "Nmm", "mNm", "uNm", "nNm"}, {0, 3, -3, -3, -6, -9}},
                              {"N m/m", {"N", "kN", "mN", "uN", "nN", "Nm/m"}, {0, 3, -3, -6, -9, 0}},
@@ -28,6 +30,13 @@ static const Kind kinds[] = {{"m", {"m", "mm", "um", "nm"}, {0, -3, -6, -9}},
                              {"1/Pa", {"m3/Nm", "mm3/Nm"}, {0, -9}}, /* no digit, as it would be part of the number */
                              {"m3/J", {"m3/J", "mm3/J"}, {0, -9}},
                              {"1", {"%"}, {-2}}};
+
+/* Returns the factor of a unit beside its power of ten. */
+static double FactorOf(const char name[])
+{
+  if (!strcmp(name, "kgf")) return KGF;
+  return strcmp(name, "lbf") ? 1 : LBF;
+}
 
 /* Returns the kind of a unit; NULL if there is none, or if the option takes numbers in SI units only. */
 static const Kind *FindKind(const char unit[])
@@ -67,6 +76,7 @@ PetscBool SamReadReal(const char si[], const char text[], const char **end, doub
   for (int k = 0; kind && k < MOST && kind->name[k]; k++)
     if (strlen(kind->name[k]) == length && !strncmp(kind->name[k], name, length)) {
       *value = ReadScaled(text, size, kind->power[k]);
+      *value *= FactorOf(kind->name[k]);
       return isfinite(*value) ? PETSC_TRUE : PETSC_FALSE;
     }
   return PETSC_FALSE;
@@ -84,6 +94,7 @@ void SamListUnits(const char unit[], char list[], size_t size)
 const char *SamUnitOf(int k, int n, int *power)
 {
   if (k >= (int)(sizeof(kinds) / sizeof(kinds[0])) || n >= MOST) return NULL;
+  if (n >= 0 && kinds[k].name[n] && FactorOf(kinds[k].name[n]) != 1) return NULL;
   *power = n < 0 ? 0 : kinds[k].power[n];
   return n < 0 ? kinds[k].si : kinds[k].name[n];
 }

@@ -26,7 +26,7 @@ from ...core.tables import Column
 from .arguments import integer, positive
 from .arguments import modal as as_modal
 from .balance import Balance
-from .numbers import Numbers, energies, solved
+from .numbers import UNKNOWN_HERE, Numbers, energies, solved
 from .structure import Structure
 from .sweep import CYCLES, STEPS, BackboneWarning, Sweep, of_vibrations
 
@@ -107,7 +107,7 @@ class Backbone(Numbers):
             Frequencies of the modes, heads, and a line for each amplitude.
         """
         stuck = ", ".join(f"{one:.6g}" for one in self.stuck[:LISTED])
-        lines = [f"modes while all that touches sticks, Hz: {stuck}", f"mode of {self.linear:.6g} Hz"]
+        lines = [UNKNOWN_HERE, f"modes while all that touches sticks, Hz: {stuck}", f"mode of {self.linear:.6g} Hz"]
         if np.isfinite(self.modes_change):
             lines.append(f"without a quarter of the structure's modes its frequency changes by {self.modes_change:.1e}")
         known = "damping_error" in self.numbers

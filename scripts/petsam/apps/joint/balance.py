@@ -28,7 +28,7 @@ from ...core.errors import Unusable
 from ...core.tables import Column
 from .arguments import integer, modal, positive
 from .failures import BEYOND, NoSolution
-from .numbers import Numbers, energies, solved
+from .numbers import UNKNOWN_HERE, Numbers, energies, solved
 from .structure import Structure
 from .sweep import STEPS, Point, Sweep, of_vibrations
 
@@ -284,8 +284,9 @@ class Response(Numbers):
             A line of heads, and one for each frequency.
         """
         lines = [
+            UNKNOWN_HERE,
             f"{'f/Hz':>11} {'amplitude/m':>12} {'phase/deg':>9} {'higher/m':>10} {self._head('W', 'J'):>10} "
-            f"{'slip':>6} cycles"
+            f"{'slip':>6} cycles",
         ]
         for k in range(len(self.frequency)):
             lines.append(

@@ -18,11 +18,11 @@ from numpy.typing import ArrayLike
 
 from ...core.brief import brief
 from ...core.errors import Unusable, short
-from ...core.tables import Column, Tabled
+from ...core.tables import Column, Tabled, noted
 from .arguments import positive, real
 from .backbones import COLUMNS, Backbone, backbone, shake
 from .failures import ENDS, NoSolution
-from .numbers import columns_of, reason
+from .numbers import UNKNOWN_HERE, columns_of, reason
 from .pair import Pair
 from .sweep import BackboneWarning
 
@@ -118,7 +118,7 @@ class Band(Tabled):
         list of str
             The assemblies, heads, and a line for each amplitude.
         """
-        lines = [f"{name}: {TEXTS[name]}" for name in self.backbones]
+        lines = [UNKNOWN_HERE, *(f"{name}: {TEXTS[name]}" for name in self.backbones)]
         lines += ["", f"{'amplitude/m':>12} {'f/Hz':>13} {'lowest':>13} {'highest':>13} {'zeta':>10} {'lowest':>10} "
                  f"{'highest':>10}" + (f" {'f +-':>9} {'zeta +-':>9}" if self.scatter else "")]  # fmt: skip
         f, z = (self.limits(name) for name in NUMBERS)
@@ -142,7 +142,7 @@ class Band(Tabled):
         names = [name for name, one in self.every.items() for _ in one.alpha]
         numbers = {name: np.concatenate([one.numbers[name] for one in every]) for name in every[0].numbers}
         columns = [one._replace(unit=self.given._unit(one.unit)) for one in columns_of(COLUMNS, numbers)]
-        return [Column("assembly", "", "the assembly", names), *columns]
+        return noted([Column("assembly", "", "the assembly", names), *columns], UNKNOWN_HERE)
 
 
 def band(

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple, Optional, Union
 import numpy as np
 
 from ...core.errors import Unusable
-from ...core.tables import Column, Tabled
+from ...core.tables import UNKNOWN, Column, Tabled, noted
 from . import decks, elements, windows
 from .conductance import Conductors
 from .numbers import columns_of
@@ -18,6 +18,7 @@ from .windows import Loop
 
 MEASURED = "k_n of loading is the stiffness that image correlation measures; k_n of unloading what ultrasound measures"
 APART = 0.05  # relative difference from which k_t along x and y are printed both
+UNKNOWN_HERE = f"{UNKNOWN} for these numbers, whose grid is that of the surface: those of finer points show it"
 COLUMNS = {
     "pressure": ("Pa", "nominal pressure"),
     "closure": ("m", "approach of the mean planes since the first touch"),
@@ -124,10 +125,10 @@ class Interface(Tabled):
         for name, values in self.errors.items():
             found.append(Column(f"{name}_error", "1", ERRORS[name], values))
         if self.friction is None:
-            return found
+            return noted(found, UNKNOWN_HERE)
         for name, text in (("friction", "coefficient of friction"), ("shear", "shear of the loop over its limit")):
             found.append(Column(name, "1", text, np.full_like(self.numbers["pressure"], getattr(self, name))))
-        return found
+        return noted(found, UNKNOWN_HERE)
 
     def elements(self, area: float = 1.0) -> list[dict[str, Any]]:
         """Elements for programs of harmonic balance, one for each pressure; see elements.of_codes().
@@ -181,6 +182,7 @@ class Interface(Tabled):
         """
         self._need_friction("to_json")
         about = {"units": "SI: N, m, Pa, N/m; displacements of body 2 against body 1", "area": area}
+        about["errors"] = UNKNOWN_HERE
         about.update(friction=self.friction, shear=self.shear, bodies=self.bodies)
         text = json.dumps({**about, "elements": self.elements(area)}, indent=1, default=str).replace("NaN", "null")
         with open(path, "w", encoding="utf-8") as file:
@@ -240,7 +242,8 @@ class Interface(Tabled):
         Returns
         -------
         list of str
-            A line of heads, one for each pressure, with a hardness one on both stiffnesses, and one on the loops.
+            A line on errors, a line of heads, one for each pressure, with a hardness one on both stiffnesses, and one
+            on the loops.
         """
         columns = [("p/MPa", 8, "{:8.4g}", self.numbers["pressure"] / 1e6)]
         further = windows.LOADING in self.numbers
@@ -257,7 +260,7 @@ class Interface(Tabled):
         widths = [max(width, len(head) + 1) for head, width, _, _ in columns]
         heads = " ".join(head.rjust(width) for (head, *_), width in zip(columns, widths))
         body = [" ".join(cell.replace("nan", "  -").rjust(width) for cell, width in zip(row, widths)) for row in rows]
-        return [heads, *body, *([MEASURED] if further else []), *([self._note()] if self.note else [])]
+        return [UNKNOWN_HERE, heads, *body, *([MEASURED] if further else []), *([self._note()] if self.note else [])]
 
     def _deviation(self, name):
         """The column of a standard deviation of windows, %."""

@@ -11,6 +11,7 @@ from .properties import Interface
 from .saved import Saved
 from .wearing import Wear
 
+NOTE = "note"  # the column of a sentence about all numbers
 # titles, and the pictures with their captions
 KINDS = {
     Backbone: (
@@ -43,7 +44,7 @@ def contents(found):
 def _columns(found):
     """The columns of the page's table; of a band the numbers as given, with their ranges and deviations."""
     if not isinstance(found, Band):
-        return found.table()
+        return [one for one in found.table() if one.name != NOTE]
     rows, given = slice(found.count), {column.name: column for column in found.given.table()}
     columns = [given["amplitude"]._replace(values=found.given.amplitude[rows])]
     for name in NUMBERS:
@@ -60,6 +61,11 @@ def _columns(found):
 
 def _facts(found):
     """The facts that hold for all rows, (name, value) each."""
+    return [*_own_facts(found), *(("Errors", one.values[0]) for one in found.table() if one.name == NOTE)]
+
+
+def _own_facts(found):
+    """The facts that this kind of result has of its own."""
     if isinstance(found, Backbone):
         stuck = ", ".join(f"{one:.6g}" for one in found.stuck)
         facts = [("Mode", (found.linear, "Hz", 9)), ("Modes while all that touches sticks", f"{stuck} Hz")]

@@ -72,7 +72,13 @@ def read(path: Union[str, os.PathLike]) -> Saved:
         raise Error(f"{path}: its first column is {columns[0].name}: {known}; give {cure}")
     kind, own = KINDS[columns[0].name]
     electrical = any(column.unit in ELECTRICAL.values() for column in columns)
-    texts = {"assembly": ("", "the assembly"), **columns_of(electrical), **ERRORS, **own}
+    texts = {
+        "assembly": ("", "the assembly"),
+        **columns_of(electrical),
+        **ERRORS,
+        **own,
+        "note": ("", "about the numbers"),
+    }
     return Saved(kind, [column._replace(text=_text(column.name, texts)) for column in columns])
 
 

@@ -24,7 +24,7 @@ from ...core.tables import Column
 from .arguments import array
 from .backbones import modal_amplitudes
 from .failures import ENDS, NoSolution
-from .numbers import Numbers, reason
+from .numbers import UNKNOWN_HERE, Numbers, reason
 from .patch import DISPLACEMENTS
 from .structure import Structure
 from .sweep import STEPS, Sweep, of_vibrations
@@ -72,8 +72,9 @@ class Wear(Numbers):
         """
         heads = "".join(f" {_shown(one):>12}" for one in self._measured())
         lines = [
+            UNKNOWN_HERE,
             f"{'cycles':>10} {'f/Hz':>13} {'+-':>8} {'zeta':>10} {'+-':>8} {self._head('W', 'J'):>10} "
-            f"{self._head('volume', 'm3'):>10}{heads}"
+            f"{self._head('volume', 'm3'):>10}{heads}",
         ]
         for k in range(len(self.cycles)):
             lines.append(

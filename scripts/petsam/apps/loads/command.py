@@ -34,7 +34,7 @@ from ...core.files import need_replaceable
 from ...core.frames import Frame
 from ...core.line import Parser, word, wrote
 from ...core.units import shown
-from .resultants import ROUNDING, SYMBOLS
+from .resultants import ROUNDING, SYMBOLS, UNKNOWN_HERE
 
 PROGRAM = "petsam-loads"
 NAME = re.compile(r"[A-Za-z0-9_][A-Za-z0-9_.-]{0,59}")
@@ -136,6 +136,7 @@ def description(found):
     nodes, rows = counted(len(found.x), "node"), counted(len(found.times), "row")
     reverse = ", reversed" if found.on == "body1" else ""
     lines = [
+        UNKNOWN_HERE,
         f"forces      on body {found.on[-1]}{reverse}; {nodes}, {rows}, time {_span(found.times, 's')}",
         f"frame       {found.frame_text}" + (f", z {found.z_by}" if found.z_by else ""),
     ]

@@ -28,6 +28,7 @@ from ...core.files import need_replaceable
 from ...core.hdf5 import need_own
 from ...core.line import Parser, word, wrote
 from ...core.roughness import self_affine
+from ...core.tables import UNKNOWN
 from ...core.units import shown
 from ...plot.saving import write
 from . import generation, levels, writing
@@ -39,6 +40,7 @@ from .pictures import finite
 from .reading import FORMATS, read
 from .words import sides, unit
 
+UNKNOWN_HERE = f"{UNKNOWN} for these numbers, which are of the map's own points"
 MOST = 1 << 16  # cells in x or y
 OF_FILES = (
     "units", "pixel", "first_row", "transpose", "mirror", "depths", "missing", "format", "skip_rows", "skip_columns",
@@ -299,6 +301,7 @@ def description(one):
     if one.is_profile:
         where = [f"cells   {n[0]} of {shown(cell[0])}", f"size    {shown(size[0])} about x = {center[0]:g} m"]
     return [
+        UNKNOWN_HERE,
         *where,
         f"height  Sq {shown(rms_height(one))}, peak to valley {shown(peak_to_valley(one))}, from {low} to {high}",
         "shape   skewness Ssk {:.3g}, kurtosis Sku {:.3g}".format(*moments(one)),

@@ -16,6 +16,7 @@ from scipy.optimize import brentq
 
 from ...core.errors import Error, Unusable
 from . import contacts
+from .cells import WIDER
 from .equilibrium import Equilibrium, Load
 from .lifting import FACE, WIDEST, derails, no_equilibrium
 from .places import distance, place
@@ -87,6 +88,8 @@ class Axle:
         both = both[0], (both[1][0], both[1][1].of_radius(wheel.radius))
         self.pairs = [Pair(*one, friction, side, settings, extrapolate=False) for one, side in zip(both, SIDES)]
         self.wheel, self.settings = wheel, self.pairs[0].settings
+        self._given = both, friction
+        self._wider: Optional[Axle] = None
         for track, one in both:
             _doubt_play(track, one)
 
@@ -100,6 +103,8 @@ class Axle:
         """Frees the contacts."""
         for pair in self.pairs:
             pair.close()
+        if self._wider is not None:
+            self._wider.close()
 
     def rigid(self, position: Position, overlaps: tuple[float, float] = (0.0, 0.0), share: float = SHARE) -> Rigid:
         """Roll and height at which both wheels overlap their rails by so much; 0: rigid bodies that touch.
@@ -191,6 +196,40 @@ class Axle:
         if load.lateral is None:
             return self._upright(position, load, start)
         return self._aside(position, load, start)
+
+    def wider(self, position: Position, found: Equilibrium) -> Optional[Equilibrium]:
+        """The equilibrium on cells twice as wide, whose iteration begins with the one found for this position: a
+        fraction of its work.
+
+        Parameters
+        ----------
+        position : Position
+            As given to solve().
+        found : Equilibrium
+            Its result, not under a given lateral force.
+
+        Returns
+        -------
+        Equilibrium or None
+            None where wider cells have none nearby, or would be wider than cells may be.
+        """
+        cell = WIDER * self.settings.cell
+        if cell > contacts.WIDEST:
+            return None
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # solve() has issued them
+            if self._wider is None:
+                (right, left), friction = self._given
+                settings = replace(self.settings, cell=cell)
+                self._wider = Axle(*right, friction, settings, left, self.rolling)
+            start = replace(found.position, z=None, pitch_rate=position.pitch_rate)
+            search = Search(self._wider, start, found.load, found)
+            try:
+                search.begin(tuple(one.overlap for one in found.wheels))
+                state = search.beside(found.position)
+                return None if state is None else search.equilibrium(state)
+            except Error:
+                return None
 
     def _aside(self, position, load, start):
         """The equilibrium under a lateral force."""

@@ -15,6 +15,7 @@ from ...contact.errors import NoEquilibrium
 from ...core import processes, tables
 from ...core.brief import brief
 from ...core.errors import Error
+from . import cells
 from .axle import Axle
 from .contacts import Settings
 from .equilibrium import Equilibrium
@@ -67,11 +68,13 @@ class Vehicle:
 @dataclass(frozen=True, eq=False)
 class Found:
     """The result of a position: `value` is kept of its Equilibrium, None where there is none; `failure` is the error of
-    a position without an equilibrium, empty otherwise; `notes` are its warnings."""
+    a position without an equilibrium, empty otherwise; `notes` are its warnings; `unknown` is why its errors are not
+    known, empty where they are."""
 
     value: Any
     failure: str = ""
     notes: tuple[str, ...] = ()
+    unknown: str = ""
 
 
 @brief
@@ -122,7 +125,7 @@ class Batch(tables.Tabled):
         for k, one in enumerate(self.found, 1):
             count = len(one.value[0].values) if one.value else 1
             numbers += [k] * count
-            notes += ["; ".join(filter(None, (named.get(k), *one.notes)))] * count
+            notes += ["; ".join(filter(None, (named.get(k), *one.notes, one.unknown)))] * count
             for row, column in zip(rows, one.value or [None] * len(solved)):
                 row += list(column.values) if column else [None] * count
         first = tables.Column("position", "1", "number of the position", numbers)
@@ -142,10 +145,12 @@ def run(
     cores: int = 1,
     keep: Callable[[Equilibrium], Any] = Equilibrium.table,
     report: Optional[Callable[[int, int], object]] = None,
+    errors: bool = False,
 ) -> list[Found]:
     """Finds the equilibrium of each position in several processes, and returns a list of Found in the order of the
     positions. `keep`, a function of a module, takes an Equilibrium and returns the value that is kept; `report` is
-    called with the numbers of positions that are done, and of all."""
+    called with the numbers of positions that are done, and of all. With `errors` that of keep is a table,
+    which gets the columns of the errors by the cells."""
     vehicle.axle().close()  # fails and warns early, and once
     order = _path(states)
     size = max(CHUNK, -(-len(states) // PARTS))
@@ -157,7 +162,9 @@ def run(
         if report is not None:
             report(ended[0], len(states))
 
-    found = processes.run([(functools.partial(_solved, vehicle, keep), part) for part in parts], cores, _quiet, done)
+    found = processes.run(
+        [(functools.partial(_solved, vehicle, keep, errors), part) for part in parts], cores, _quiet, done
+    )
     solved = dict(zip(order, (one for part in found for one in part)))
     return [solved[k] for k in range(len(states))]
 
@@ -181,7 +188,7 @@ def _quiet(*_):
     """Takes what jobs report, which is nothing."""
 
 
-def _solved(vehicle, keep, states, _told):
+def _solved(vehicle, keep, errors, states, _told):
     """Found of each position of a part."""
     found, before = [], None
     with warnings.catch_warnings():
@@ -197,8 +204,20 @@ def _solved(vehicle, keep, states, _told):
                 except Error as error:
                     before, failure = None, str(error)
             notes = tuple(dict.fromkeys(str(one.message) for one in caught if issubclass(one.category, UserWarning)))
-            found.append(Found(keep(before) if before else None, failure, notes))
+            value, unknown = keep(before) if before else None, ""
+            if errors and before:
+                value, unknown = _with_errors(axle, state, before, value)
+            found.append(Found(value, failure, notes, unknown))
     return found
+
+
+def _with_errors(axle, state, found, table):
+    """The table of an equilibrium with the columns of its errors, and why they are unknown, or an empty text."""
+    aside = state.load.lateral is not None
+    wider = None if aside else axle.wider(state.position, found)
+    more = cells.errors(table, wider and wider.table())
+    unknown = "" if cells.are_known(more) else f"{tables.UNKNOWN}, as {cells.ASIDE if aside else cells.OTHERS}"
+    return [*table, *more], unknown
 
 
 def _near(axle, state, before):
@@ -227,7 +246,11 @@ def _differ_little(before, state):
 
 
 def solve_all(
-    vehicle: Vehicle, states: Sequence[State], cores: int = 1, report: Optional[Callable[[int, int], object]] = None
+    vehicle: Vehicle,
+    states: Sequence[State],
+    cores: int = 1,
+    report: Optional[Callable[[int, int], object]] = None,
+    errors: bool = False,
 ) -> Batch:
     """The numbers of many positions.
 
@@ -235,9 +258,12 @@ def solve_all(
     ----------
     vehicle, states, cores, report
         See run().
+    errors : bool
+        True: the table has columns NAME_error, too: estimated errors by the cells, from each equilibrium on cells twice
+        as wide; NaN where it has other patches, or a lateral force is given.
 
     Returns
     -------
     Batch
     """
-    return Batch(list(states), run(vehicle, states, cores, report=report))
+    return Batch(list(states), run(vehicle, states, cores, report=report, errors=errors))

@@ -26,10 +26,12 @@ Y/Q, its lateral over its vertical force, is above Nadal's limit (tan d - mu)/(1
 wheelset that is held aside by a force at the axle's height tips over before its flange is steep: give --height.
 
 -o NAME writes NAME.csv: a row for each patch with contact point, angle, creepages, forces in the patch (n, fx, fs) and
-in the track (track_fx ...), all on the rail, maximum pressure, area, stick area, T-gamma, Y/Q and the state; NAME.png,
-of one position the sections with pressure and slip of each patch, of a sweep contact points, rolling radius difference,
-equivalent conicity (EN 15302) and T-gamma. With --wear NAME-wear.csv has the depth per distance of each place of the
-profile by the mean of all positions, and with --distance the profile after it, its estimated error, and NAME-wear.png.
+in the track (track_fx ...), all on the rail, maximum pressure, area, stick area, T-gamma, Y/Q and the state, and in
+NAME_error the error of each by the cells: it is estimated from a solution on cells twice as wide, as that behind +- in
+the printed lines; NAME.png, of one position the sections with pressure and slip of each patch, of a sweep contact
+points, rolling radius difference, equivalent conicity (EN 15302) and T-gamma. With --wear NAME-wear.csv has the depth
+per distance of each place of the profile by the mean of all positions, and with --distance the profile after it, its
+estimated error, and NAME-wear.png.
 """
 
 import sys
@@ -42,6 +44,7 @@ from ...core.errors import Error, Unusable, short
 from ...core.files import need_replaceable
 from ...core.line import Parser, wrote
 from ...core.progress import Progress
+from ...core.tables import UNKNOWN
 from .inputs import need_ready, states_of, vehicle_of
 from .options import JUMPS, add_positions, add_profiles, check_positions, check_profiles, reworded, unlike, warn
 from .printing import SHOWN, print_all
@@ -112,7 +115,7 @@ def carry_out(options):
         cores = 1
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # of the vehicle: printed above
-        found = profiles.solve_all(vehicle, states, cores, Progress("position", every=EVERY))
+        found = profiles.solve_all(vehicle, states, cores, Progress("position", every=EVERY), errors=True)
     table = found.table()
     print_all(options, found, table)
     written = []
@@ -159,7 +162,7 @@ def _wear(options, vehicle, states, cores, endings):
     if options.distance is None:
         worn = wearing.rates(vehicle, states, law, cores)
         rates, where = worn.depth_per_distance, worn.y[int(np.argmax(worn.depth_per_distance))]
-        print(f"wear: at most {rates.max():.4g} m per m, at y {1e3 * where:.2f} mm")
+        print(f"wear: at most {rates.max():.4g} m per m, at y {1e3 * where:.2f} mm; {UNKNOWN} for it")
     else:
         report = Progress("jump", every=EVERY)
         worn = profiles.wear(vehicle, states, options.distance, law, options.jumps or JUMPS, cores, report)

@@ -16,6 +16,7 @@ from ...core.errors import Error, Unusable
 MULTIPLE = 4  # numbers of cells are multiples of it, so that few grids occur
 MOST = 1024  # cells along x or s
 KEPT = 64  # contacts
+WIDEST = 5e-3  # m: of a cell
 SPARE = 8  # cells by which a grid that is there may be wider than a new one
 COARSER = 3  # cells of a draft
 DRAFTED = dict(tangential_rtol=1e-5, normal_rtol=1e-7, edges="none")  # of a draft
@@ -84,7 +85,7 @@ class Settings:
     rtol: float = 1e-5
 
     def __post_init__(self) -> None:
-        if not 1e-6 <= self.cell <= 5e-3:
+        if not 1e-6 <= self.cell <= WIDEST:
             raise Unusable(f"cell {self.cell:g}: expected the width of a cell in m, such as 2e-4")
         if not 0.0 <= self.combination < self.separation < 0.2:
             raise Unusable(

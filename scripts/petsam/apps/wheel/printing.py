@@ -19,14 +19,15 @@ SHOWN = 12  # positions whose patches are printed, and failures
 def print_all(options, found, table):
     """The equilibria and patches of few positions; of all, failures and warnings."""
     columns = {column.name: column.values for column in table}
+    _head(found)
     solved = {number: k for k, number in reversed([*enumerate(columns["position"])]) if columns["ws_y"][k] is not None}
     for number, k in [*sorted(solved.items())][:SHOWN]:
-        y, z, roll, lateral, difference = (
-            columns[name][k] for name in ("ws_y", "ws_z", "ws_roll", "ws_lateral", "radius_difference")
-        )
-        left = max(abs(columns[name][k]) for name in ("force_error", "moment_error"))
-        print(f"position {number}: y {1e3 * y:.4f} mm, z {1e3 * z:.4f} mm, roll {1e3 * roll:.5f} mrad, lateral "
-              f"force {lateral:.5g} N, rolling radius difference {1e3 * difference:.4f} mm, "
+        row = {name: values[k] for name, values in columns.items()}
+        left = max(abs(row[name]) for name in ("force_error", "moment_error"))
+        print(f"position {number}: y {1e3 * row['ws_y']:.4f} mm, {_told(row, 'z', 'ws_z', '.4f', 'mm', 1e3)}, "
+              f"{_told(row, 'roll', 'ws_roll', '.5f', 'mrad', 1e3)}, "
+              f"{_told(row, 'lateral force', 'ws_lateral', '.5g', 'N')}, "
+              f"{_told(row, 'rolling radius difference', 'radius_difference', '.4f', 'mm', 1e3)}, "
               f"residual {left:.1g}")  # fmt: skip
         for row in [j for j, one in enumerate(columns["position"]) if one == number]:
             _print_patch({name: values[row] for name, values in columns.items()})
@@ -55,10 +56,32 @@ def _warn_of_notes(found):
 
 
 def _print_patch(row):
-    print(f"  {row['side']:5} y {1e3 * row['y']:9.3f} mm, angle {row['angle']:8.4f}, creepages {row['creep_x']:.3e} "
-          f"{row['creep_s']:.3e} {row['creep_spin']:.3e}/m, N {row['n']:.5g} N, Fx {row['fx']:.4g} N, Fs "
-          f"{row['fs']:.4g} N, p_max {row['p_max'] / 1e6:.4g} MPa, T-gamma {row['t_gamma']:.4g} N"
-          f"{_climbing(row)}")  # fmt: skip
+    numbers = (
+        ("y", "y", "9.3f", "mm", 1e3), ("angle", "angle", "8.4f", "", 1.0), ("creepages", "creep_x", ".3e", "", 1.0),
+        ("", "creep_s", ".3e", "", 1.0), ("", "creep_spin", ".3e", "/m", 1.0), ("N", "n", ".5g", "N", 1.0),
+        ("Fx", "fx", ".4g", "N", 1.0), ("Fs", "fs", ".4g", "N", 1.0), ("p_max", "p_max", ".4g", "MPa", 1e-6),
+        ("T-gamma", "t_gamma", ".4g", "N", 1.0),
+    )  # fmt: skip
+    print(f"  {row['side']:5} {', '.join(_told(row, *one) for one in numbers)}{_climbing(row)}")
+
+
+def _told(row, text, name, form, unit, scale=1.0):
+    """A number of a row with its error, if that is known: N 43946 N +- 12."""
+    error = row.get(f"{name}_error", np.nan)
+    more = f" +- {scale * error:.2g}" if np.isfinite(error) else ""
+    return f"{text} {scale * row[name]:{form}} {unit}".strip().replace(" /m", "/m") + more
+
+
+def _head(found):
+    """Prints what the numbers behind +- are, and why positions have none."""
+    solved = [(number, one) for number, one in enumerate(found.found, 1) if one.value]
+    if any(not one.unknown for _, one in solved):
+        print("+-: estimated error by the cells, from a solution on cells twice as wide")
+    for text in dict.fromkeys(one.unknown for _, one in solved if one.unknown):
+        numbers = [number for number, one in solved if one.unknown == text]
+        which = "" if len(numbers) == len(solved) else f"position {', '.join(map(str, numbers[:SHOWN]))}: "
+        more = f" ({len(numbers)} such positions)" if which and len(numbers) > SHOWN else ""
+        print(f"{which}{text}{more}")
 
 
 def _climbing(row):

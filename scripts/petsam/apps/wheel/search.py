@@ -31,6 +31,7 @@ ALMOST_DONE = 15.0  # residual of drafts over the wanted one, at least: a step f
 MORE = 100  # full solutions beyond PASSES, while no more than ALMOST is left
 ROUGH = 1e-6  # m: overlaps with which an iteration begins agree to it
 ROLLINGS = ("free", "radii")  # without a pitch rate: without torque about the axle; by the mean of the rolling radii
+NEAR = 5e-4  # residual of an equilibrium on wider cells, for errors
 STEADY = 1e-6  # of the load times the radius: torque of a wheelset that rolls freely
 ALIKE = 1e-8  # relative error of the pitch rate by the mean of the radii
 STEEP, LINE = 0.8, 2e-5  # part of the contacts' distance below which the height is no line over the roll; rad
@@ -183,6 +184,14 @@ class Search:
                 return state
             self.improve(state)
         return None
+
+    def beside(self, position):
+        """The state nearest to an equilibrium, after a step with the slopes of that at a position on other cells; None
+        if it is not near one."""
+        self.position, self.correction = position, np.zeros(3)
+        self.improve(self.state())
+        state = self.state()
+        return state if max(abs(state.values)) <= NEAR else None
 
     def state(self, draft=False):
         """The solutions at the present height and roll."""

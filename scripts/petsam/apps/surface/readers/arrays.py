@@ -4,7 +4,7 @@ import numpy as np
 
 from ....core.errors import Error, short
 from ..doubts import FEWEST
-from .stated import NUMPY, OTHERS, TEXTS, ZIP, Reader, Stated
+from .stated import ARRAYS, OTHERS, TEXTS, ZIP, Reader, Stated
 
 REAL = "iuf"  # kinds of NumPy's real numbers
 NONE = "no real numbers"
@@ -17,8 +17,10 @@ class Npy(Reader):
     family = "npy"
 
     def recognizes(self, source):
-        """By its name, or by its first bytes under a name of a text."""
-        return source.ending in (".npy", ".npz") or source.ending in TEXTS + OTHERS and source.start.startswith(NUMPY)
+        """By its name, or by its first bytes under a name of a text or of other arrays."""
+        if source.ending in (".npy", ".npz"):
+            return not source.is_hdf5
+        return source.ending in TEXTS + OTHERS + ARRAYS and source.is_numpy
 
     def read(self, source):
         """The array."""

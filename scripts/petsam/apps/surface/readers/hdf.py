@@ -8,7 +8,7 @@ from ....core.files import decoded
 from ....core.hdf5 import opened
 from ..basics import QUANTITIES, SAME
 from .arrays import NONE, REAL, chosen, listed, told
-from .stated import HDF5, TEXTS, Reader, Stated
+from .stated import ARRAYS, HDF5, OTHERS, TEXTS, Reader, Stated
 
 ANOTHER = "convert another one by petsam-surface FILE --dataset NAME -o NEW.h5"
 EVEN = 1e-3  # maximum relative difference of the distances of cells
@@ -21,8 +21,10 @@ class Hdf5(Reader):
     states = ("unit", "size", "center", "quantity", "first row")
 
     def recognizes(self, source):
-        """By its name, or by its first bytes under a name of a text; other names are those of instruments."""
-        return source.ending in (".h5", ".hdf5") or source.ending in (*TEXTS, "") and source.start.startswith(HDF5)
+        """By its name, or by its first bytes under a name of a text or of arrays; others are those of instruments."""
+        if source.ending == ".mat":
+            return source.start.startswith(HDF5)  # those of Matlab 7.3 are read as its others
+        return source.ending in (".h5", ".hdf5") or source.ending in TEXTS + OTHERS + ARRAYS and source.is_hdf5
 
     def read(self, source):
         """The dataset and its attributes."""

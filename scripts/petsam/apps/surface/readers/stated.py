@@ -12,6 +12,8 @@ from ....core.texttable import Form, Text
 from .. import headers
 
 NUMPY, HDF5, ZIP = b"\x93NUMPY", b"\x89HDF\r\n\x1a\n", b"PK\x03\x04"
+MATLAB, USER_BLOCK = b"MATLAB 7.3", 512
+ARRAYS = (".npy", ".npz", ".h5", ".hdf5", ".mat")  # endings of arrays, some of which have the contents of others
 START = 4096  # bytes of a file that show its format
 TEXTS = (".csv", ".txt")  # endings of texts
 OTHERS = (".tsv", ".dat", ".xyz", ".prn", ".asc", ".grd", "")  # endings that texts may have, and files of instruments
@@ -61,8 +63,20 @@ class Source:
     def is_text(self):
         """True if the file is a text by its name, or by its contents where the name leaves this open."""
         if self.how.table or self.ending in TEXTS:
-            return not self.start.startswith((NUMPY, HDF5))
+            return not (self.is_numpy or self.is_hdf5)
         return self.ending in OTHERS and self.is_printable
+
+    @cached_property
+    def is_numpy(self):
+        """True if the first bytes are those of .npy, or of .npz, a zip of such members."""
+        first = self.start[30 : 30 + int.from_bytes(self.start[26:28], "little")]  # name of a zip's first member
+        return self.start.startswith(NUMPY) or self.start.startswith(ZIP) and first.endswith(b".npy")
+
+    @cached_property
+    def is_hdf5(self):
+        """True if the first bytes are those of HDF5, or of .mat of Matlab 7.3, which is HDF5 behind a header."""
+        matlab = self.start.startswith(MATLAB) and self.start[USER_BLOCK:].startswith(HDF5)
+        return self.start.startswith(HDF5) or matlab
 
     @property
     def is_printable(self):
