@@ -25,7 +25,8 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 TIMEOUT = 300  # seconds for one unit test program on an idle machine
 SLOWEST = 30  # unit tests to print
-LONG = {"test_life", "test_embed_program", "test_lengths"}  # unit tests that run on the first number of ranks only
+# unit tests that run on the first number of ranks only
+LONG = {"test_life", "test_embed_program", "test_lengths", "test_stepcache", "test_states"}
 WORKERS = 4  # most files of whole-program tests at a time; runs on several ranks share the cores
 
 

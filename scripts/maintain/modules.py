@@ -58,6 +58,7 @@ def definitions(tree):
     return {node.name: node for node in tree.body if isinstance(node, kinds) and not node.name.startswith("_")}
 
 
+@cache
 def public(module):
     """Returns the public functions and classes of a module by name, as users meet them, with those of its __all__ that
     are of modules beside it."""
@@ -69,10 +70,14 @@ def public(module):
 
 def offered(module):
     """Returns the names of the __all__ of a module; none of one without, or whose __all__ is no constant."""
-    for node in tree_of(module).body:
-        if ast.unparse(node).startswith("__all__ = ["):
-            return ast.literal_eval(node.value)
-    return []
+    [*_, value] = [ast.List([]), *assigned(module, "__all__")]
+    return ast.literal_eval(value) if isinstance(value, ast.List) else []
+
+
+def assigned(module, name):
+    """Returns what a module assigns to a name."""
+    parts = [part for part in tree_of(module).body if isinstance(part, ast.Assign)]
+    return [part.value for part in parts if getattr(part.targets[0], "id", None) == name]
 
 
 def unfolded(module, node):
@@ -98,7 +103,7 @@ def unfolded(module, node):
 
 def constant(module, name):
     """Returns the value of a constant of a module; None if it has none of this name."""
-    found = [part.value for part in tree_of(module).body if ast.unparse(part).startswith(f"{name} = ")]
+    found = assigned(module, name)
     return ast.literal_eval(found[0]) if found else None
 
 

@@ -3,6 +3,7 @@
 import ast
 import re
 import sys
+from functools import cache
 from pathlib import Path
 
 import modules
@@ -18,9 +19,9 @@ OF_COMMANDS = ("command.py", "line.py", "arguments.py", "uses.py", "options.py",
 
 def imported(name, path, known):
     """The names of other modules that a module imports or takes from one that it imports, as home.name."""
-    package, tree = name if path.name == "__init__.py" else name.rpartition(".")[0], ast.parse(path.read_text("utf-8"))
-    used, local = set(), {}
-    for node in ast.walk(tree):
+    package = name if path.name == "__init__.py" else name.rpartition(".")[0]
+    nodes, used, local = list(ast.walk(rooms.tree(path))), set(), {}
+    for node in nodes:
         if not isinstance(node, ast.ImportFrom) or not node.level:
             continue
         above = package.split(".")[: len(package.split(".")) - node.level + 1]
@@ -30,7 +31,7 @@ def imported(name, path, known):
                 local[alias.asname or alias.name] = f"{home}.{alias.name}"
             else:
                 used.add(f"{home}.{alias.name}")
-    for node in ast.walk(tree):
+    for node in nodes:
         if isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name) and node.value.id in local:
             used.add(f"{local[node.value.id]}.{node.attr}")
     return used
@@ -51,6 +52,7 @@ def crossings(known):
     return below, between, upward
 
 
+@cache
 def definitions(tree):
     return [node for node in ast.walk(tree) if isinstance(node, (ast.FunctionDef, ast.ClassDef))]
 
@@ -71,7 +73,7 @@ def hidden(known, nodes, shown):
     return [
         node.name
         for path in known.values()
-        for node in definitions(ast.parse(path.read_text("utf-8")))
+        for node in definitions(rooms.tree(path))
         if SECTIONS.search(ast.get_docstring(node) or "")
         and ast.get_docstring(node) not in shown
         and node.name not in names
@@ -82,7 +84,7 @@ def measure():
     """The counts, in the order of their rows in ruler.py."""
     known = rooms.modules()
     docstrings = [ast.get_docstring(node) or "" for path in known.values()
-                  for node in definitions(ast.parse(path.read_text("utf-8")))]  # fmt: skip
+                  for node in definitions(rooms.tree(path))]  # fmt: skip
     nodes, shown = documented()
     commands = [path for path in known.values() if path.name in OF_COMMANDS]
     below, between, upward = crossings(known)

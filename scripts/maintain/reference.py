@@ -149,10 +149,11 @@ def main():
     reference = MATERIALS.sub(lambda _: materials(described), fill(REFERENCE.read_text(), groups))
     module = declared(described, groups)
     for file, new in (REFERENCE, reference), (DECLARED, module):
-        if not arguments.check:
-            file.write_text(new)
-        elif new != file.read_text():
+        if new == file.read_text():
+            continue  # else make would take all pages of the scripts for older than it
+        if arguments.check:
             sys.exit(f"{file.relative_to(ROOT)} differs from -help: run python3 scripts/maintain/reference.py")
+        file.write_text(new)
 
 
 if __name__ == "__main__":

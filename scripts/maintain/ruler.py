@@ -10,6 +10,7 @@ import json
 import re
 import subprocess
 import sys
+from functools import cache
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -68,6 +69,7 @@ HOMES = {
 }
 
 
+@cache
 def code(path):
     """A source without its comments."""
     return re.sub(r"/\*.*?\*/", "", path.read_text(encoding="utf-8"), flags=re.S)
@@ -106,7 +108,7 @@ def fitted():
 
 def uses(name, text):
     """How many times a text has a name, other than where it is defined."""
-    return len(re.findall(rf"(?<!#define )\b{name}\b", text))
+    return len(re.findall(rf"(?<!#define )\b{name}\b", text)) if name in text else 0
 
 
 def guards(mutant, name, total):
@@ -132,10 +134,10 @@ def unguarded(mutants):
 PAGES = (".md", ".sh", ".py", ".opts", ".csv", ".yaml", ".ipynb")
 
 
-def shown(option, text):
-    """True if a text gives an option: -option, option=, "option", or option: of a study."""
-    pattern = r"""(?<!\w)-NAME(?!\w)|(?<!\w)NAME=|["'`]NAME["'`]|^\s*NAME:"""
-    return bool(re.search(pattern.replace("NAME", option), text, re.M))
+def names_shown(text):
+    """The names that a text gives as options: -option, option=, "option", or option: of a study."""
+    found = re.finditer(r"""(?<!\w)-(\w+)|(?<!\w)(\w+)=|["'`](\w+)(?=["'`])|^\s*(\w+):""", text, re.M)
+    return {name for match in found for name in match.groups() if name}
 
 
 def options_in_no_page(build):
@@ -144,8 +146,8 @@ def options_in_no_page(build):
     options = [row["name"].lstrip("-") for group in json.loads(help_text.stdout)["groups"] for row in group["options"]]
     pages = [path for path in sorted((ROOT / "examples").rglob("*")) if path.suffix in PAGES]
     pages = [path for path in pages if path.name != "OPTIONS.md"] + [ROOT / "README.md", ROOT / "scripts" / "README.md"]
-    text = "\n".join(path.read_text(encoding="utf-8") for path in pages)
-    return [name for name in options if not shown(name, text)]
+    shown = set().union(*(names_shown(path.read_text(encoding="utf-8")) for path in pages))
+    return [name for name in options if name not in shown]
 
 
 def measure(build):

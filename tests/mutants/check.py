@@ -2,7 +2,7 @@
 """Change a line that guards correctness, and see whether the tests that should notice do.
 
     make check-mutants                       all of tests/mutants/*.txt
-    tests/mutants/check.py verdict contact     those whose file or text has one of these words
+    tests/mutants/check.py verdict contact     those whose file, text or tests have one of these words
 
 Each mutant is built in a copy of the sources and run against the unit tests, or program tests, that its entry names.
 One that passes has survived: a line that nothing guards. Survivors, and entries that no longer fit the sources, are
@@ -214,14 +214,17 @@ def all_mutants():
     return [mutant for path in sorted(LISTS.glob("*.txt")) for mutant in read_list(path)]
 
 
+def chosen(mutant, word):
+    """Whether a word chooses an entry."""
+    return any(word in text for text in (mutant.file, mutant.old, *mutant.tests))
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--trees", type=int, default=2, help="how many are built at the same time")
     parser.add_argument("words", nargs="*")
     args = parser.parse_args()
-    mutants = [
-        m for m in all_mutants() if not args.words or any(word in m.file or word in m.old for word in args.words)
-    ]
+    mutants = [m for m in all_mutants() if not args.words or any(chosen(m, word) for word in args.words)]
     if misfits(mutants):
         sys.exit("mutants:\n" + "\n".join(misfits(mutants)))
     trees = [make_tree(ROOT / "build" / "mutants" / str(k)) for k in range(args.trees)]

@@ -550,7 +550,7 @@ def test_motion_until_cells_touch_that_does_not_settle_stays(petsam, tmp_path, r
 RANDOM = [("inf", 0.3, 210e9, 0.3), (210e9, 0.3, 20e9, 0.1), (200e9, 0.3, 5e9, 0.35), ("inf", 0.3, 3e9, 0.0)]
 
 
-@pytest.mark.parametrize("seed", range(24))
+@few("seed", range(24), 8)
 def test_random_problems_with_much_friction_converge(petsam, tmp_path, seed):
     """Rough and round, periodic and not; loads in long steps."""
     rng = np.random.default_rng(seed)

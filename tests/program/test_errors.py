@@ -155,7 +155,7 @@ def test_a_single_step_of_both_loads_has_no_error_by_the_steps(petsam, tmp_path)
     assert all(row["by_steps"] < 1e-3 for row in table("own.h5").values())
 
 
-@pytest.mark.parametrize("every", [5, 6])
+@pytest.mark.parametrize("every", [5, pytest.param(6, marks=pytest.mark.slow)])
 def test_errors_are_the_same_on_any_ranks_and_after_a_restart(petsam, tmp_path, loop, every):
     """The restart is between two moments that the companion with other steps shares with the run, or at one."""
     on = dict(errors="companion")
@@ -190,7 +190,7 @@ def test_a_run_that_stops_has_the_errors_as_far_as_it_has_come(petsam, tmp_path,
     np.testing.assert_equal(table("stopped.h5"), table("head.h5"))
 
 
-@few("plane, name", [(plane, name) for plane in (False, True) for name in capabilities.cases(plane)], 16)
+@few("plane, name", [(plane, name) for plane in (False, True) for name in capabilities.cases(plane)], 9)
 def test_every_capability_has_companions(petsam, tmp_path, plane, name):
     """Also friction fields of a file, steady rolling, sliding surfaces, divided steps: all have errors."""
     case = capabilities.write(plane, *capabilities.cases(plane)[name], tmp_path)

@@ -26,7 +26,7 @@ def assert_same_bits(one, many):
         assert np.array_equal(values, many[name], equal_nan=values.dtype.kind == "f"), name
 
 
-@few("plane, name", CASES, 12)
+@few("plane, name", CASES, 8)
 def test_ranks_without_cells_change_nothing(petsam, tmp_path, plane, name):
     """A row of cells is on one rank; 3 rows on 4 ranks leave one without. A decision by a rank's own data hangs."""
     case = capabilities.write(plane, *capabilities.cases(plane)[name], tmp_path)
@@ -36,7 +36,7 @@ def test_ranks_without_cells_change_nothing(petsam, tmp_path, plane, name):
     assert_same_bits(tmp_path / "1.h5", tmp_path / f"{ranks}.h5")
 
 
-@few("plane, name", CASES, 12)
+@few("plane, name", CASES, 8)
 def test_restart_changes_no_number(petsam, tmp_path, plane, name):
     """From the checkpoint before the last step, to the last bit: numbers of steps, fields, accumulated fields.
 

@@ -7,6 +7,7 @@ import pytest
 
 import petsam
 import petsam as library  # beside the fixture petsam, which runs the program
+from support import few
 
 SIZE = 2.6e-3
 BODIES = dict(body1_young=210e9, body1_poisson=0.3, body2_young=210e9, body2_poisson=0.3)
@@ -343,7 +344,7 @@ def objectives(problem):
 
 
 @pytest.mark.filterwarnings("ignore")
-@pytest.mark.parametrize("seed", [*range(12), 13, 14, 15, 16])
+@few("seed", [*range(12), 13, 14, 15, 16], 6)
 def test_random_problems_beside_differences(seed):
     """Each parameter by central differences of the contact's own history."""
     deviations, borders = check_random(seed, Problem)
@@ -441,7 +442,7 @@ class ProblemOfMidStep(Problem):
 
 
 @pytest.mark.filterwarnings("ignore")
-@pytest.mark.parametrize("seed", [0, 1, 2, 3, 5, 8, 9, 10, 15, 21])
+@few("seed", [0, 1, 2, 3, 5, 8, 10, 9, 15, 21], 4)  # one of each kind
 def test_random_problems_at_mid_step(seed):
     """Slip that turns with the shear, and begins where cells touch."""
     deviations, borders = check_random(seed, ProblemOfMidStep)
@@ -676,7 +677,7 @@ def shear_in(given, row, column):
 
 
 @pytest.mark.filterwarnings("ignore")
-@pytest.mark.parametrize(
+@few(
     "number, constants",
     [("swt@50um", {}), ("swt@50um@1", {}), ("findley@80um@k=0.3", FINDLEY), ("findley@0.08mm@1@k=0.3", FINDLEY),
      ("fatemi_socie@50um@k=0.7@yield=300MPa", SOCIE), ("fatemi_socie@80um@yield=3e8@k=0.7@1", SOCIE)],
@@ -698,9 +699,9 @@ def test_parameters_of_planes(number, constants):
 
 
 @pytest.mark.filterwarnings("ignore")
-@pytest.mark.parametrize(
+@few(
     "number", ["stress_xx@50um", "stress_xz@0.1mm@1", "mises@80um", "swt@50um", "swt@80um@1", "findley@50um@k=0.3",
-               "fatemi_socie@50um@1@k=1@yield=900MPa"],
+               "fatemi_socie@50um@1@k=1@yield=900MPa"], 4,
 )  # fmt: skip
 def test_stresses_by_the_moduli(number):
     """Through the tractions, through the map of the stress, and as constants of a parameter."""

@@ -5,6 +5,7 @@ import pytest
 
 import petsam
 import petsam as library  # beside the fixture petsam, which runs the program
+from support import few
 from test_gradient import BODIES, SIZE, TIGHT, UNLIKE, gap_of
 
 ROW = np.arange(9)
@@ -12,8 +13,8 @@ TURN = 2 * np.pi * ROW / 8
 CASES = {
     "archard": {},
     "dissimilar": dict(UNLIKE, grid_n=18),
-    "energy": dict(wear_coefficient1=None, wear_energy2=3e-11),
     "mid step": dict(slip_direction="mid", grid_n=20),
+    "energy": dict(wear_coefficient1=None, wear_energy2=3e-11),
     "few cycles": dict(wear_jump=5.0, grid_n=20),
     "displacements": dict(approach=7e-6, grid_n=20),
     "new cells": dict(swing=20.0, wear_coefficient1=2e-10, grid_n=30),
@@ -68,7 +69,7 @@ def wave(x, y):
 
 
 @pytest.mark.filterwarnings("ignore")
-@pytest.mark.parametrize("name", CASES)
+@few("name", CASES, 4)
 def test_wear_simulations_beside_differences(name):
     """The worn volume and the work of the last cycle: jumps, their halves, and cells open in a part of the cycle."""
     case = CASES[name]

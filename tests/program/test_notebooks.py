@@ -12,7 +12,7 @@ from conftest import PROGRAM
 from support import ROOT
 
 NOTEBOOKS = sorted((ROOT / "examples" / "notebooks").glob("*.ipynb"))
-LONG = ("blade-root", "lap")  # of many steps, on their own meshes
+LONG = ("blade-root", "joint", "lap", "measurements")  # of many steps, or of many fits
 RUNS = [pytest.param(one, id=one.stem, marks=[pytest.mark.slow] * (one.stem in LONG)) for one in NOTEBOOKS]
 
 

@@ -1,5 +1,6 @@
 """The manual: links, options, and the script that runs its commands (scripts/maintain/check_readmes.py)."""
 
+import os
 import re
 import subprocess
 import sys
@@ -57,6 +58,22 @@ def test_the_reference_of_options_is_what_help_says():
     script = ROOT / "scripts/maintain/reference.py"
     words = [sys.executable, str(script), "--check", "--build", str(PROGRAM.parents[1])]
     finished(words)
+
+
+def test_the_reference_is_written_where_it_has_changed(tmp_path, monkeypatch):
+    """So that make takes nothing for older than a file that is the same."""
+    copies = {name: tmp_path / getattr(reference, name).name for name in ("REFERENCE", "DECLARED")}
+    for name, copy in copies.items():
+        copy.write_text(getattr(reference, name).read_text())
+        os.utime(copy, (1e9, 1e9))
+        monkeypatch.setattr(reference, name, copy)
+    monkeypatch.setattr(sys, "argv", ["reference.py", "--build", str(PROGRAM.parents[1])])
+    reference.main()
+    assert all(copy.stat().st_mtime == 1e9 for copy in copies.values())
+    text = copies["DECLARED"].read_text()
+    copies["DECLARED"].write_text(text + "# old\n")
+    reference.main()
+    assert copies["DECLARED"].read_text() == text and copies["REFERENCE"].stat().st_mtime == 1e9
 
 
 def test_options_of_a_group_become_a_table():

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import support
+from support import few
 
 FOLDER = support.ROOT / "examples" / "reference"
 ROWS = json.loads((FOLDER / "cases.json").read_text())
@@ -102,7 +103,7 @@ def test_right_answers_are_right(tmp_path):
         (lambda value, _: float("nan"), "it is no finite number"),
     ],
 )
-@pytest.mark.parametrize("index", range(0, len(ROWS), 11))
+@few("index", range(0, len(ROWS), 11), 4)
 def test_a_wrong_answer_is_named(tmp_path, index, change, why):
     row, answers = ROWS[index], right()
     narrow = (row["high"] - row["low"]) / size(row) < 2e-3

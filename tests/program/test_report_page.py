@@ -24,6 +24,7 @@ from test_plane import CYLINDER, N
 pytestmark = pytest.mark.usefixtures("closing", "there")
 
 STRESS = conftest.PROGRAM.with_name("petsam-stress")
+SHOWN = 6  # steps of a slider
 CASE = ball(n=32)
 AMPLITUDE = float(0.7 * slide_limit(CASE)[0])
 VOID = ("meta", "img", "input", "br", "wbr")
@@ -96,8 +97,15 @@ def there(tmp_path, monkeypatch):
 
 @pytest.fixture
 def few(monkeypatch):
-    """Sliders of three steps, which are drawn quickly."""
-    monkeypatch.setattr(frames, "STEPS", 3)
+    """Sliders of two steps, which are drawn quickly."""
+    monkeypatch.setattr(frames, "STEPS", 2)
+
+
+@pytest.fixture
+def undrawn(few, monkeypatch):
+    """Texts alone: pictures are made, and not drawn."""
+    monkeypatch.setattr(page_module, "_svg", lambda figure: b"")
+    monkeypatch.setattr(page_module, "png", lambda figure, dpi: b"\x89PNG")
 
 
 @pytest.fixture(scope="module")
@@ -116,8 +124,10 @@ def copy(strokes, tmp_path):
 
 @pytest.fixture(scope="module")
 def page(strokes, tmp_path_factory):
+    """With a slider of six steps."""
     path = tmp_path_factory.mktemp("page") / "run.html"
-    with petsam.open(strokes) as results:
+    with petsam.open(strokes) as results, pytest.MonkeyPatch.context() as patch:
+        patch.setattr(frames, "STEPS", SHOWN)
         results.report(path)
     return read(path)
 
@@ -184,7 +194,7 @@ def test_the_error_by_the_load_step_stands_beside_the_energy(copy):
         assert names.index("dissipated_energy_closed") == names.index("dissipated_energy") + 1
 
 
-@pytest.mark.usefixtures("few")
+@pytest.mark.usefixtures("undrawn")
 def test_large_errors_are_warned_of(copy, tmp_path):
     with h5py.File(copy, "r+") as file:
         file["errors/error"][:2] = (0.31, np.nan)
@@ -232,13 +242,13 @@ def test_the_citation_is_that_of_the_repository():
 
 def test_the_slider_has_a_picture_for_each_step_that_it_shows(page):
     [slider], shown = page[0].all("input", type="range"), page[0].all("div", **{"class": "frame"})
-    assert len(shown) == int(slider["max"]) - int(slider["min"]) + 1 == frames.STEPS
-    assert [("hidden" in one) for one in shown] == [True] * 19 + [False] and slider["value"] == slider["max"]
+    assert len(shown) == int(slider["max"]) - int(slider["min"]) + 1 == SHOWN
+    assert [("hidden" in one) for one in shown] == [True] * (SHOWN - 1) + [False] and slider["value"] == slider["max"]
     assert [one["for"] for one in page[0].all("label")] == [slider["id"]]
     whens = [one["data-when"] for one in shown]
-    assert len(set(whens)) == 20 and whens[0].startswith("step 1,") and whens[-1] == "step 48, t = 3 s"
+    assert len(set(whens)) == SHOWN and whens[0].startswith("step 1,") and whens[-1] == "step 48, t = 3 s"
     maps = [one["alt"] for one in page[0].all("img") if "of step" in one["alt"]]
-    assert len(maps) == 3 * 20 and [alt.split()[0] for alt in maps[:3]] == ["pressure", "shear", "slip"]
+    assert len(maps) == 3 * SHOWN and [alt.split()[0] for alt in maps[:3]] == ["pressure", "shear", "slip"]
 
 
 def test_a_slider_that_would_be_too_large_has_fewer_steps(strokes):
@@ -249,6 +259,7 @@ def test_a_slider_that_would_be_too_large_has_fewer_steps(strokes):
     assert int(found.all("input")[0]["max"]) == len(shown) - 1
 
 
+@pytest.mark.usefixtures("few")
 def test_all_steps_of_a_slider_have_one_scale_and_one_window(strokes, monkeypatch):
     seen = []
     monkeypatch.setattr(frames.page, "image", lambda figure, *_, **__: seen.append(figure) or frames.page.Html(""))
@@ -265,11 +276,12 @@ def test_a_notebook_has_the_slider_alone(strokes, copy):
     with petsam.open(strokes) as results:
         shown = [results.view() for _ in range(2)]
     found = [Page(one._repr_html_()) for one in shown]
-    assert all(len(one.all("div", **{"class": "frame"})) == 3 and not one.all("table") for one in found)
+    assert all(len(one.all("div", **{"class": "frame"})) == 2 and not one.all("table") for one in found)
     assert found[0].all("input")[0]["id"] != found[1].all("input")[0]["id"]  # both may stand in one notebook
     assert repr(shown[0]).startswith("View(") and "<script>" in shown[0]._repr_html_()
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_a_single_step_has_no_slider(solve, tmp_path):
     one = solve(dict(CASE, load_tx=AMPLITUDE)).path
     petsam.open(one).report(tmp_path / "one.html")
@@ -281,7 +293,7 @@ def test_a_single_step_has_no_slider(solve, tmp_path):
 # ---------------------------------------------------------------- other files
 
 
-@pytest.mark.usefixtures("few")
+@pytest.mark.usefixtures("undrawn")
 def test_a_life(solve, tmp_path):
     rest = dict(steps=3, wear_coefficient2=1e-12, wear_cycles=2000, wear_output=(0, 500))
     table = history(tmp_path / "c.csv", "time,load_tx", (0, 0), (1, AMPLITUDE), (2, -AMPLITUDE), (3, 0))
@@ -306,6 +318,7 @@ def test_plane_strain(launcher, tmp_path):
     assert len(found.all("div", **{"class": "frame"})) == int(found.all("input")[0]["max"]) + 1
 
 
+@pytest.mark.usefixtures("few")
 def test_steady_rolling(solve, tmp_path):
     rows_ = [(k, 1e-3 * k) for k in range(1, 4)]
     table = history(tmp_path / "r.csv", "time,creep_x", *rows_)
@@ -314,6 +327,7 @@ def test_steady_rolling(solve, tmp_path):
     assert any(one["alt"].startswith("power density") for one in found.all("img"))
 
 
+@pytest.mark.usefixtures("few")
 @pytest.mark.parametrize("more", [dict(section="y=0", depths="0:4e-4:9"), dict(depths="0,1e-4")])
 def test_stresses(launcher, strokes, tmp_path, more):
     words = dict(input=strokes, steps="13:36", fatigue="swt", quiet=True, output="s.h5", **more)
@@ -372,6 +386,7 @@ def test_texts_of_a_file_do_not_become_elements(copy, tmp_path):
     assert "<i>$label$</i>" in found.said()
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_a_run_that_has_failed_says_so(solve, tmp_path):
     table = history(tmp_path / "f.csv", "time,load_tx", (1, AMPLITUDE), (2, 5 * AMPLITUDE))
     petsam.open(solve(CASE, table, check=11).path).report(tmp_path / "failed.html")
@@ -380,7 +395,7 @@ def test_a_run_that_has_failed_says_so(solve, tmp_path):
     assert "1 step has no equilibrium" in said
 
 
-@pytest.mark.usefixtures("few")
+@pytest.mark.usefixtures("undrawn")
 def test_a_run_that_was_killed_says_so(copy, tmp_path):
     with h5py.File(copy, "r+") as file:
         file.attrs["closed"] = np.int8(0)
@@ -388,7 +403,7 @@ def test_a_run_that_was_killed_says_so(copy, tmp_path):
     assert "No exit code: the run has not ended, or was killed." in read(tmp_path / "killed.html")[0].said()
 
 
-@pytest.mark.usefixtures("few")
+@pytest.mark.usefixtures("undrawn")
 def test_chosen_kinds_alone_are_in_the_page(draw, strokes, tmp_path):
     assert draw("--report", "loop.html", "--loop", "--cycle", "1", strokes) == (0, [])
     captions = [data for places, data in read(tmp_path / "loop.html")[0].texts if places[-1:] == ("figcaption",)]

@@ -10,6 +10,7 @@ import re
 import subprocess
 import sys
 from collections import defaultdict
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -139,10 +140,16 @@ def modules():
     return found
 
 
+@cache
+def tree(path):
+    """The syntax of a module, to read only."""
+    return ast.parse(path.read_text(encoding="utf-8"))
+
+
 def imported(name, path, known):
     """The modules of the package that a module imports, at any place, or names in a text, as importlib needs it."""
     package = name if path.name == "__init__.py" else name.rpartition(".")[0]
-    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+    for node in ast.walk(tree(path)):
         if isinstance(node, ast.ImportFrom) and node.level:
             above = package.split(".")[: len(package.split(".")) - node.level + 1]
             home = ".".join([*above, *([node.module] if node.module else [])])
@@ -159,7 +166,7 @@ def imported(name, path, known):
 def composed(path):
     """The arguments of importlib.import_module() that are composed, so that imported() cannot read them; those of a
     module's own package, as "." + home, are none."""
-    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+    for node in ast.walk(tree(path)):
         called = node.func if isinstance(node, ast.Call) else None
         if getattr(called, "attr", getattr(called, "id", "")) in ("import_module", "__import__"):
             what = node.args[0]

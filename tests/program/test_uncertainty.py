@@ -139,7 +139,7 @@ def test_refusals_of_uncertainties():
 # ---------------------------------------------------------------- the function for optimisers
 
 
-@pytest.mark.parametrize("steps", [1, 2])
+@pytest.mark.parametrize("steps", [1, pytest.param(2, marks=pytest.mark.slow)])
 def test_derivatives_of_a_function_beside_differences(steps):
     """All kinds of parameters, of three numbers at once; with several load steps per row, too."""
     history = {name: values[:7] for name, values in HISTORY.items()}

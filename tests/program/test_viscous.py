@@ -10,7 +10,7 @@ from scipy.optimize import fsolve
 from scipy.special import iv, kve
 
 import petsam as package
-from support import bodies
+from support import bodies, few
 
 # three terms, of which the times and parts of the creep are known
 PARTS, TIMES = (0.5, 0.3, 0.15), (0.01, 0.1, 1.0)
@@ -228,8 +228,7 @@ def test_limits_are_elastic_bodies(kind):
                 assert found[name][k] == pytest.approx(elastic[name][k], abs=1e-6 * np.abs(elastic[name][k]).max())
 
 
-@pytest.mark.parametrize("kind", ["halfspace", "plane", "periodic"])
-@pytest.mark.parametrize("both", [True, False])
+@few("kind, both", [(kind, both) for kind in ("halfspace", "plane", "periodic") for both in (True, False)])
 def test_limits_of_constant_bulk_modulus_are_elastic_bodies(kind, both):
     """Of a body that keeps its bulk modulus, and one that keeps it or Poisson's ratio: of G(inf) and what is kept."""
     case = dict(

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 import petsam as package
-from support import bodies
+from support import bodies, few
 from test_viscous import BALL, RIGID, hunter, relaxing, table
 
 NU = 0.3
@@ -122,7 +122,7 @@ GRID = dict(grid_n=(24, 16), grid_size=(4, 8 / 3), grid_center=(-0.8, 0), load_n
 
 
 @pytest.mark.parametrize("place, length, ahead", [(ROW, 0.25, 300), (GRID, 0.2, 60)], ids=["plane", "half-space"])
-@pytest.mark.parametrize("which", FORMS)
+@few("which", FORMS, 2)
 def test_steady_rolling_is_the_end_of_steps_of_a_cell(which, place, length, ahead):
     """In steps in which the bodies roll by a cell; all kernels are in use."""
     step, k = 0.0625 if place is ROW else 1 / 6, np.arange(ahead)
@@ -168,7 +168,7 @@ def test_the_resistance_is_what_the_terms_dissipate():
     assert abs(rest[1]) < 1e-3 and 3 < rest[0] / rest[1] < 5
 
 
-@pytest.mark.parametrize("which", FORMS)
+@few("which", FORMS, 2)
 @pytest.mark.parametrize("given", [{}, dict(load_n=None, disp_z=0.35), dict(rot_y=0.02)], ids=["n", "z", "tilted"])
 def test_the_extrapolated_resistance_is_that_of_grids_of_half_as_many_cells(which, given):
     """Also of dissimilar bodies, with the lift by the fine shear; a given approach counts as the load that it finds."""

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import support
+from support import few
 
 # A rigid sphere of radius 1 m; at first yield (nu = 0.3) the pressure, the contact's radius, the load, the approach
 YIELD = 1e-3
@@ -463,7 +464,7 @@ def test_a_restart_names_the_body_that_yielded(petsam):
     assert "-body2_yield is given there, and not here" in done.complaint[0]
 
 
-@pytest.mark.parametrize("other", ["linear:2GPa", "voce:186MPa,223", "voce:187MPa,222", "swift:1e-3,0.2", "none"])
+@few("other", ["linear:2GPa", "voce:186MPa,223", "voce:187MPa,222", "swift:1e-3,0.2", "none"])
 def test_a_restart_with_another_hardening_is_rejected(petsam, other):
     """The same hardening in another unit is the same."""
     case = dict(

@@ -133,6 +133,7 @@ int main(int argc, char **argv)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(test_error_by_cells_is_the_larger_difference),
+    cmocka_unit_test(test_error_of_a_series_is_its_rest),
     cmocka_unit_test(test_error_by_steps_is_the_difference_of_runs_on_the_same_cells),
     cmocka_unit_test(test_largest_doubt_is_kept_for_each_number_and_cause),
     cmocka_unit_test(test_more_doubts_than_there_is_room_for_are_dropped),

@@ -4,9 +4,9 @@
 #include "../../src/run/forecast/scaling.h"
 
 /*
-  Measured seconds on 1, 2, 4, 8 and 16 ranks, 0: not measured; a step of two spheres with slip. The first three on a node
-  with 16 cores of one socket (examples/manual/LARGE.md), the others on two cores (tests/bench/README.md). A step of the
-  history of 80 takes less than a single step, which leaves its ratios.
+  Measured seconds on 1, 2, 4, 8 and 16 ranks, 0: not measured; a step of two spheres with slip. The first three on a
+  node with 16 cores of one socket (examples/manual/LARGE.md), the others on two cores (tests/bench/README.md). A step
+  of the history of 80 takes less than a single step, which leaves its ratios.
 */
 static const struct {
   PetscInt n;

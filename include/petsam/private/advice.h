@@ -106,8 +106,9 @@ typedef struct {
   zone. `found`: the energy, NULL if there is none; may be NULL. Collective.
   SamAdviceTell - warns, in a line per cause, of all numbers with large errors, and proposes what mends them. Not
   collective.
-  SamAdviceFindFew - finds whether the contact under these loads is a single spot of so few cells across that nothing but the
-  given loads is known of it: `few` is their number, 0: they are enough; `more`: how many times as many resolve it.
+  SamAdviceFindFew - finds whether the contact under these loads is a single spot of so few cells across that nothing
+  but the given loads is known of it: `few` is their number, 0: they are enough; `more`: how many times as many resolve
+  it.
   Collective (width.c).
   SamAdviceEdge - appends to the message of a step whose contact reached the grid's edge a grid that is large enough for
   these loads. Not collective.

@@ -42,8 +42,8 @@ typedef struct {
   `energy`: it is an energy of bodies that do not yield.
   SamErrorOfSeries - returns the same for a number whose differences from grid to grid hardly fall, infinite if they
   grow; 0: they fall, or that of the finer grids is at most `least`, in the number's unit.
-  SamErrorBySteps - returns the error of a number by the steps; `same`: the run on the same cells as SAM_RUN_OTHER. Those
-  by cells and by steps are NaN if unknown. None is collective (estimates.c).
+  SamErrorBySteps - returns the error of a number by the steps; `same`: the run on the same cells as SAM_RUN_OTHER.
+  Those by cells and by steps are NaN if unknown. None is collective (estimates.c).
 */
 PETSC_INTERN double SamErrorByCells(PetscBool energy, double own, const double run[SAM_RUNS]);
 PETSC_INTERN double SamErrorOfSeries(double least, double own, const double run[SAM_RUNS]);

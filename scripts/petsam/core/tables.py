@@ -11,7 +11,6 @@ from .errors import Error, library
 from .files import need_replaceable, text_of
 from .shown import Shown
 
-UNKNOWN = "no error of the grid is known"  # the beginning of the sentence of results that have none
 HEAD = re.compile(r"(.*?)(?: \[(.*)\])?", re.DOTALL)
 
 
@@ -29,15 +28,15 @@ class Column(NamedTuple):
         name, unit = HEAD.fullmatch(head).groups()
         return cls(name, unit or "", text, values)
 
+    @classmethod
+    def noted(cls, columns, sentence):
+        """Columns with one more, note, that has a sentence about all numbers in each row."""
+        return [*columns, cls("note", "", "about the numbers", [sentence] * len(columns[0].values))]
+
 
 def head(name, unit):
     """The head of a column in a file: pressure [Pa]."""
     return f"{name} [{unit}]" if unit else name
-
-
-def noted(columns, sentence):
-    """Columns with one more, note, that has a sentence about all numbers in each row."""
-    return [*columns, Column("note", "", "about the numbers", [sentence] * len(columns[0].values))]
 
 
 def csv_text(columns, form=repr):
@@ -116,6 +115,7 @@ class Tabled(Shown):
     pandas and on a page, and reads a class of such fields alone."""
 
     form = staticmethod(repr)  # writes a number of the CSV
+    unknown = "no error of the grid is known"  # begins the sentence of results that have none
 
     def table(self) -> list:
         """The columns.

@@ -101,9 +101,9 @@ PETSC_INTERN PetscErrorCode SamReportDestroy(SamReport *report);
    borrowed. Not collective. */
 PETSC_INTERN void SamReportSetAccuracy(SamReport report, const SamAccuracy *accuracy);
 /*
-  SamReportBanner - prints version, libraries, ranks, grid, bodies that are named, memory (`bytes`: what this rank
-  will need, and of it what does not depend on the grid; the largest is printed), the checkpoint from which the run continues, and the files that it writes.
-  Collective.
+  SamReportBanner - prints version, libraries, ranks, grid, bodies that are named, memory (`bytes`: what this rank will
+  need, and of it what does not depend on the grid; the largest is printed), the checkpoint from which the run
+  continues, and the files that it writes. Collective.
 */
 PETSC_INTERN PetscErrorCode SamReportBanner(SamReport report, const SamSetup *setup, const double bytes[2],
                                             const SamSimulationStart *start);
@@ -128,8 +128,8 @@ PETSC_INTERN void SamReportKeepSummaries(SamReport report, SamContact contact);
 */
 PETSC_INTERN PetscErrorCode SamStepView(const SamStep *step, SamContact contact, PetscBool profile, PetscViewer viewer);
 /*
-  SamReportScaling - prints what a step takes on other numbers of ranks, by a model (run/forecast/scaling.c). `bytes`: of
-  the largest rank here, and of it what does not depend on the grid; `lines`: rows of cells. Collective.
+  SamReportScaling - prints what a step takes on other numbers of ranks, by a model (run/forecast/scaling.c). `bytes`:
+  of the largest rank here, and of it what does not depend on the grid; `lines`: rows of cells. Collective.
 */
 PETSC_INTERN PetscErrorCode SamReportScaling(SamReport report, PetscInt lines, int ranks, const double bytes[2],
                                              const SamSimulationStart *start);

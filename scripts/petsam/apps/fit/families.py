@@ -169,19 +169,7 @@ def _simulated(run, given):
 
 
 def with_second(one: Family, shape: Union[str, os.PathLike], options: Optional[Mapping] = None) -> Family:
-    """A family with that of a second grid: half the cells, twice the steps.
-
-    Parameters
-    ----------
-    one : Family
-    shape, options
-        Of it, see family().
-
-    Returns
-    -------
-    Family
-        Without a second one where that has no solution.
-    """
+    """A family with that of a second grid, half the cells and twice the steps; without one where that fails."""
     steps = {**options_of(shape), **(options or {})}.get("steps") or 1
     width = len(one.x) * float(one.x[1] - one.x[0])
     coarse = {"grid_n": f"{max(SMALLEST, len(one.x) // 2)},1", "grid_size": width, "steps": 2 * int(float(steps))}

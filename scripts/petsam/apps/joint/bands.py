@@ -18,7 +18,7 @@ from numpy.typing import ArrayLike
 
 from ...core.brief import brief
 from ...core.errors import Unusable, short
-from ...core.tables import Column, Tabled, noted
+from ...core.tables import Column, Tabled
 from .arguments import positive, real
 from .backbones import COLUMNS, Backbone, backbone, shake
 from .failures import ENDS, NoSolution
@@ -142,7 +142,7 @@ class Band(Tabled):
         names = [name for name, one in self.every.items() for _ in one.alpha]
         numbers = {name: np.concatenate([one.numbers[name] for one in every]) for name in every[0].numbers}
         columns = [one._replace(unit=self.given._unit(one.unit)) for one in columns_of(COLUMNS, numbers)]
-        return noted([Column("assembly", "", "the assembly", names), *columns], UNKNOWN_HERE)
+        return Column.noted([Column("assembly", "", "the assembly", names), *columns], UNKNOWN_HERE)
 
 
 def band(

@@ -2,11 +2,11 @@
 
 import warnings
 
-from ...core.tables import UNKNOWN, Column, Tabled, noted
+from ...core.tables import Column, Tabled
 from .failures import ENDS, NoSolution
 from .sweep import BackboneWarning
 
-UNKNOWN_HERE = f"{UNKNOWN} for these numbers: those of finer contact grids (-grid_n) show it"
+UNKNOWN_HERE = f"{Tabled.unknown} for these numbers: those of finer contact grids (-grid_n) show it"
 PER_METRE = {"J": "J/m", "N": "N/m", "m3": "m3/m", "m kg^0.5": "m (kg/m)^0.5", "m/s2 kg^0.5": "m/s2 (kg/m)^0.5"}
 
 
@@ -43,7 +43,7 @@ class Numbers(Tabled):
         list of tables.Column
         """
         found = [*columns_of(self.columns, self.numbers), *self.more_columns()]
-        return noted([one._replace(unit=self._unit(one.unit)) for one in found], UNKNOWN_HERE)
+        return Column.noted([one._replace(unit=self._unit(one.unit)) for one in found], UNKNOWN_HERE)
 
 
 def columns_of(columns, numbers):

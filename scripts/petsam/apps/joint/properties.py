@@ -9,7 +9,7 @@ from typing import Any, NamedTuple, Optional, Union
 import numpy as np
 
 from ...core.errors import Unusable
-from ...core.tables import UNKNOWN, Column, Tabled, noted
+from ...core.tables import Column, Tabled
 from . import decks, elements, windows
 from .conductance import Conductors
 from .numbers import columns_of
@@ -18,7 +18,7 @@ from .windows import Loop
 
 MEASURED = "k_n of loading is the stiffness that image correlation measures; k_n of unloading what ultrasound measures"
 APART = 0.05  # relative difference from which k_t along x and y are printed both
-UNKNOWN_HERE = f"{UNKNOWN} for these numbers, whose grid is that of the surface: those of finer points show it"
+UNKNOWN_HERE = f"{Tabled.unknown} for these numbers, whose grid is that of the surface: those of finer points show it"
 COLUMNS = {
     "pressure": ("Pa", "nominal pressure"),
     "closure": ("m", "approach of the mean planes since the first touch"),
@@ -125,10 +125,10 @@ class Interface(Tabled):
         for name, values in self.errors.items():
             found.append(Column(f"{name}_error", "1", ERRORS[name], values))
         if self.friction is None:
-            return noted(found, UNKNOWN_HERE)
+            return Column.noted(found, UNKNOWN_HERE)
         for name, text in (("friction", "coefficient of friction"), ("shear", "shear of the loop over its limit")):
             found.append(Column(name, "1", text, np.full_like(self.numbers["pressure"], getattr(self, name))))
-        return noted(found, UNKNOWN_HERE)
+        return Column.noted(found, UNKNOWN_HERE)
 
     def elements(self, area: float = 1.0) -> list[dict[str, Any]]:
         """Elements for programs of harmonic balance, one for each pressure; see elements.of_codes().

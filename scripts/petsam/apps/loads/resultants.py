@@ -21,12 +21,12 @@ import numpy as np
 from ...core.errors import Error, Unusable, short
 from ...core.files import need_replaceable
 from ...core.frames import Frame
-from ...core.tables import UNKNOWN, Column, Tabled
+from ...core.tables import Column, Tabled
 from ...results.cycles import turning_points
 from . import automatic, doubts
 from .forces import Forces
 
-UNKNOWN_HERE = f"{UNKNOWN} for these loads, which are sums of the given forces: those of a finer mesh show it"
+UNKNOWN_HERE = f"{Tabled.unknown} for these loads, which are sums of the given forces: those of a finer mesh show it"
 LOADS = ("load_n", "load_tx", "load_ty", "load_mx", "load_my", "load_mz")
 UNITS = ("N", "N", "N", "N m", "N m", "N m")
 SYMBOLS = {"load_n": "N", "load_tx": "T_x", "load_ty": "T_y", "load_mx": "M_x", "load_my": "M_y", "load_mz": "M_z"}

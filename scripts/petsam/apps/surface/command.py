@@ -28,7 +28,7 @@ from ...core.files import need_replaceable
 from ...core.hdf5 import need_own
 from ...core.line import Parser, word, wrote
 from ...core.roughness import self_affine
-from ...core.tables import UNKNOWN
+from ...core.tables import Tabled
 from ...core.units import shown
 from ...plot.saving import write
 from . import generation, levels, writing
@@ -40,7 +40,7 @@ from .pictures import finite
 from .reading import FORMATS, read
 from .words import sides, unit
 
-UNKNOWN_HERE = f"{UNKNOWN} for these numbers, which are of the map's own points"
+UNKNOWN_HERE = f"{Tabled.unknown} for these numbers, which are of the map's own points"
 MOST = 1 << 16  # cells in x or y
 OF_FILES = (
     "units", "pixel", "first_row", "transpose", "mirror", "depths", "missing", "format", "skip_rows", "skip_columns",

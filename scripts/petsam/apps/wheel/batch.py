@@ -216,7 +216,7 @@ def _with_errors(axle, state, found, table):
     aside = state.load.lateral is not None
     wider = None if aside else axle.wider(state.position, found)
     more = cells.errors(table, wider and wider.table())
-    unknown = "" if cells.are_known(more) else f"{tables.UNKNOWN}, as {cells.ASIDE if aside else cells.OTHERS}"
+    unknown = "" if cells.are_known(more) else f"{tables.Tabled.unknown}, as {cells.ASIDE if aside else cells.OTHERS}"
     return [*table, *more], unknown
 
 

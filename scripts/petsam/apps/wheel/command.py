@@ -44,7 +44,7 @@ from ...core.errors import Error, Unusable, short
 from ...core.files import need_replaceable
 from ...core.line import Parser, wrote
 from ...core.progress import Progress
-from ...core.tables import UNKNOWN
+from ...core.tables import Tabled
 from .inputs import need_ready, states_of, vehicle_of
 from .options import JUMPS, add_positions, add_profiles, check_positions, check_profiles, reworded, unlike, warn
 from .printing import SHOWN, print_all
@@ -162,7 +162,7 @@ def _wear(options, vehicle, states, cores, endings):
     if options.distance is None:
         worn = wearing.rates(vehicle, states, law, cores)
         rates, where = worn.depth_per_distance, worn.y[int(np.argmax(worn.depth_per_distance))]
-        print(f"wear: at most {rates.max():.4g} m per m, at y {1e3 * where:.2f} mm; {UNKNOWN} for it")
+        print(f"wear: at most {rates.max():.4g} m per m, at y {1e3 * where:.2f} mm; {Tabled.unknown} for it")
     else:
         report = Progress("jump", every=EVERY)
         worn = profiles.wear(vehicle, states, options.distance, law, options.jumps or JUMPS, cores, report)
