@@ -89,9 +89,10 @@ int SamAdviceFewest(const SamAdvice *a)
 /*
   Returns the width in cells of the spots with half of the contact, or of a narrower contact in closed form.
 
-  Below SAM_ADVICE_BORDER it is no contact but a load on cells, whose width is their size: of nothing but the given load anything
-  is known. The area of a sphere's contact is wrong by up to 16 % on 4 cells, by half on 3, its pressure by half on 2;
-  on a tenth of a cell the pressure is a thousandth of Hertz's. The approach is right to 8 % down to 2 cells, SAM_ADVICE_SAME.
+  Below SAM_ADVICE_BORDER it is no contact but a load on cells, whose width is their size: of nothing but the given load
+  anything is known. The area of a sphere's contact is wrong by up to 16 % on 4 cells, by half on 3, its pressure by
+  half on 2; on a tenth of a cell the pressure is a thousandth of Hertz's. The approach is right to 8 % down to 2 cells,
+  SAM_ADVICE_SAME.
 */
 double SamAdviceWidth(const SamAdvice *a)
 {
