@@ -108,7 +108,7 @@ def test_last_fields_of_a_divided_step_without_equilibrium_have_their_own_time(l
 
 
 def test_runs_with_and_without_divided_steps_do_not_continue_each_other(loads, petsam):
-    petsam(loads, dict(checkpoint="c.h5", checkpoint_every=4))
+    petsam(loads, dict(checkpoint="c.h5", checkpoint_every=4, step_divide="no"))
     done = petsam(loads, dict(step_rtol=1e-2, restart="c.h5.1"), check=2)
     assert "lacks step_rtol" in done.complaint[0]
 
