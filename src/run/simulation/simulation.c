@@ -92,7 +92,6 @@ static PetscErrorCode Offer(SamSimulation s)
       PetscCall(SamContactOfferCondition(s->setup.contact, one));
   }
   if (s->needs.stiffness) PetscCall(SamStiffnessDeclare(s->setup.contact));
-  PetscCall(SamSimulationDeclarePieces(s));
   PetscCall(SamErrorsCreate(s));
   PetscCall(SamErrorsPrepare(s));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -116,6 +115,7 @@ PetscErrorCode SamSimulationSetUp(SamSimulation s, const SamOptions *from)
   PetscFunctionBegin;
   PetscCall(SamSetupCreateContact(&s->setup, from));
   if (SamPrintHelp()) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SamSimulationDeclarePieces(s));
   PetscCall(s->history ? Prepare(s, from) : SamErrorsCreate(s));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

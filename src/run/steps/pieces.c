@@ -12,6 +12,8 @@
     1. Try the piece. If its estimate is too large, reject it, and try half of it.
     2. Else commit it. The next piece is as long, or twice as long if the estimate of that is likely to be small enough.
     3. The last piece stays tried: it is the step, with the sums of all pieces.
+  If a piece has no solution, as loads slide on the way, the run ends there; without a tolerance the rest of the step is
+  taken at once.
   Pieces are repeated halves of the step; the shortest are accepted with any estimate. All decisions depend on global
   numbers of this step, so they are the same on any number of ranks, and after a restart.
 
@@ -74,7 +76,7 @@ PetscErrorCode SamSimulationDeclarePieces(SamSimulation s)
   PetscFunctionBegin;
   PetscCall(SamContactGetState(s->setup.contact, &state));
   if (s->step_rtol > 0) PetscCall(SamStateDeclareNumber(state, &so_far, &id));
-  if (Divides(s)) PetscCall(SamStateDeclareOptional(state, &so_far, 0, &id));
+  if (s->step_rtol == 0) PetscCall(SamStateDeclareOptional(state, &so_far, 0, &id)); /* of runs that go on from others */
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -135,7 +137,7 @@ PetscErrorCode SamSimulationTry(SamSimulation s, PetscInt k, SamStep *step)
 {
   const double most                      = s->step_rtol > 0 ? MOST : 1;
   double       before[SAM_STATE_NUMBERS] = {0}, done = 0, piece = most;
-  PetscBool    enough = PETSC_TRUE, longer = PETSC_FALSE, apart = PETSC_FALSE;
+  PetscBool    rest = PETSC_FALSE, enough = PETSC_TRUE, longer = PETSC_FALSE, apart = PETSC_FALSE;
   SamControl   control;
   SamState     state;
 
@@ -150,8 +152,14 @@ PetscErrorCode SamSimulationTry(SamSimulation s, PetscInt k, SamStep *step)
   while (PETSC_TRUE) {
     control = ControlAt(s, k, apart, done + piece);
     PetscCall(SamSimulationTryStep(s, &control, step));
-    if (!SamStepIsSolved(step)) break;
+    if (!SamStepIsSolved(step) && (s->step_rtol > 0 || done + piece == 1)) break;
+    if (!SamStepIsSolved(step)) {
+      piece = 1 - done;
+      rest  = PETSC_TRUE;
+      continue;
+    }
     PetscCall(Judge(s, piece, &enough, &longer));
+    if (rest) break;
     if (!enough) {
       piece /= 2;
       if (piece == most / 2 && s->step_rtol == 0)

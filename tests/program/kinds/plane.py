@@ -250,6 +250,7 @@ class Problem:
     def make_case(self, n):
         self.case = dict(
             slip_direction="end",  # the law of a step as it is tested below
+            step_divide="no",
             elasticity="plane_periodic" if self.periodic else "plane",
             plane_datum=None if self.periodic else self.datum,
             gap_type="file",
