@@ -2,8 +2,10 @@
 
 A single difference may be small by chance, as edges lie between cells in their own way in each contact. So the root
 mean square over all patches of the position counts, each relative to its scale: forces to N, sizes to their own.
-FACTORS were chosen by 34 random positions of two pairs of profiles: against cells three times narrower about nine of
-ten errors are covered, and none is too large by more than five in the median.
+FACTORS were chosen by 34 random positions of two pairs of profiles on cells of 0.2 mm: against cells three times
+narrower 90 to 100 % of the errors of a column are covered, and they are 2 to 5 times too large in the median. Of 10
+other positions 89 % are covered on cells of 0.3 mm, 83 % on 0.6 mm; those of p_max and creep_x are up to 8 times too
+large.
 """
 
 import numpy as np
