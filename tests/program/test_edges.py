@@ -136,3 +136,18 @@ def test_width_of_the_slip_zone_is_its_area_over_the_edge(solve):
         case, c = cattaneo(share)
         r = solve(case)
         assert r["slip_width"] == pytest.approx(hertz(case).radius * (1 - c**2) / 2, rel=0.02)
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_no_more_sticks_than_touches():
+    """Both areas are reconstructed, each with its own error, where nearly all of a growing contact sticks."""
+    rows = dict(
+        time=np.arange(5.0),
+        load_n=np.array([500.0, 500, 250, 100, 400]),
+        disp_x=1e-6 * np.array([0, 1.5, 1.5, -1, 0.5]),
+    )
+    case = dict(body1_young=115e9, body1_poisson=0.32, body2_young=115e9, body2_poisson=0.32, friction=0.5)
+    case.update(gap_type="ellipsoid", gap_radius_x=0.05, gap_radius_y=0.2, grid_n=(20, 40), grid_size=(1.5e-3, 3.3e-3))
+    run = package.run(**case, history=rows, steps=40, errors="none", output_fields="none")
+    assert np.all(run["stick_area"] <= run["contact_area"])
+    assert np.any((run["stick_area"] == run["contact_area"]) & (run["stick_cells"] < run["contact_cells"]))

@@ -282,8 +282,8 @@ static PetscErrorCode FindEdges(SamProblem problem, SamState state, const SamSol
   PetscCall(SamSolutionFindEdge(problem, s, SAM_EDGE_STICK, &edge));
   PetscCall(SamSolutionFindShear(problem, state, s, both ? edge : NULL, &numbers[SHEAR_MAX]));
   numbers[CONTACT_AREA] = contact[AREA];
-  numbers[STICK_AREA]   = edge->area;
-  numbers[SLIP_WIDTH]   = NAN; /* flat periodic bodies have no edge */
+  numbers[STICK_AREA]   = PetscMin(edge->area, contact[AREA]); /* both are reconstructed, each with its own error */
+  numbers[SLIP_WIDTH]   = NAN;                                 /* flat periodic bodies have no edge */
   if (contact[FACES] > 0)
     numbers[SLIP_WIDTH] = PetscMax(contact[AREA] - (double)edge->area, 0) / SamContactEdgeLength(grid, contact[FACES]);
   numbers[EDGE_ACCEPTED] =

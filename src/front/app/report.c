@@ -454,9 +454,11 @@ static PetscErrorCode CompareErrors(SamReport r, const SamErrorTable *t)
   if (!reached)
     (void)snprintf(wanted, sizeof(wanted), "-accuracy %.3g %% is not reached: ", 100 * (double)r->accuracy->error);
   if (!reached) {
-    static const char *const cure[SAM_CAUSES] = {"a smaller -accuracy chooses finer cells",
-                                                 "the steps are given, as by -steps or in a single row",
-                                                 "the layers are given", "the compliance is given"};
+    const char *const cure[SAM_CAUSES] = {"a smaller -accuracy chooses finer cells",
+                                          strstr(r->accuracy->chosen, "-steps")
+                                            ? "a smaller -accuracy chooses more steps"
+                                            : "the steps are given, as by -steps or in a single row",
+                                          "the layers are given", "the compliance is given"};
 
     (void)snprintf(limit, sizeof(limit), "; %s", r->accuracy->limit[0] ? r->accuracy->limit : cure[worst->cause]);
     SamAccuracyWriteMissed(r->accuracy, t, worst, missed, sizeof(missed));
