@@ -39,7 +39,7 @@ def test_energy_where_n_falls_is_that_of_many_steps(energies, name, rows, steps,
     run_ = run(rows, steps, step_divide=divide)
     energy, error = run_["dissipated_energy"].sum(), run_["energy_error"].sum()
     assert energy == pytest.approx(energies[name], rel=most)
-    assert 0.5 * abs(energy - energies[name]) < error < 0.3 * energy
+    assert 0.5 * abs(energy - energies[name]) < error < (0.3 if divide else 0.7) * energy
 
 
 def test_a_lift_off_loses_all_that_the_shear_has_stored():
@@ -60,6 +60,21 @@ def test_loads_that_go_to_zero_together_need_parts():
     one, parts = run(BACK, 1, step_divide=False), run(BACK, 1)
     assert one["dissipated_energy"].sum() < 0.3 * exact < one["energy_error"].sum()
     assert parts["dissipated_energy"].sum() == pytest.approx(exact, rel=0.06)
+
+
+@pytest.mark.parametrize("unlike", [{}, dict(body2_young=70e9), dict(bulk2_stress_xx=1e6)])
+@pytest.mark.parametrize("rows, steps", [
+    (dict(load_n=(1000, 0), disp_x=(0, 1e-6)), 1), (dict(load_n=(1000, 1000, 0), disp_x=(0, 5e-7, -5e-7)), 2),
+])  # fmt: skip
+def test_contact_that_is_lost_from_no_shear_is_divided(rows, steps, unlike):
+    """All that is dissipated is stored and lost within the step, of bodies without a balance, too."""
+    one, parts, many = (
+        run(rows, count, **unlike, step_divide=divide) for count, divide in ((steps, False), (steps, True), (64, False))
+    )
+    exact = many["dissipated_energy"].sum()
+    missing = exact - one["dissipated_energy"].sum()
+    assert 0.4 * exact < missing < 2 * one["energy_error"].sum()
+    assert parts["dissipated_energy"].sum() == pytest.approx(exact, rel=0.07)
 
 
 def test_a_release_by_loads_that_vanish_with_n_is_unknown():
