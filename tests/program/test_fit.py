@@ -955,6 +955,14 @@ def test_a_scar_without_unworn_surface_is_refused(scars):
     assert level.coefficient == pytest.approx(2.2e-14, rel=1e-4)
 
 
+@pytest.mark.parametrize("height", [lambda x: 0 * x, lambda x: 0 * x + 5e-6, lambda x: 1e-6 - 2e-3 * x])
+def test_a_line_is_no_scar(scars, height):
+    """Without noise, by which others are judged."""
+    x = np.linspace(-3e-4, 3e-4, 61)
+    with pytest.raises(Error, match="it has no scar: all heights lie on a line"):
+        petsam.fit.fit_scar(scars[1], x, height(x))
+
+
 def test_a_profile_that_rises_is_no_scar(scars, fit, tmp_path):
     """Depths, a profile upside down on a slope, and one that rises over its unworn level; noise without a scar may."""
     path, one = scars
