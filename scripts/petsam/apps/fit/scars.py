@@ -39,7 +39,7 @@ INDEPENDENT = 3.0  # independent points for each parameter, below which residual
 MATTERS = 0.02  # misfit over depth, below which that does not matter
 BY_GRID = 0.5  # of what a second grid changes: of four shapes the errors were 0.1 to 0.4 of it
 HELD = 0.5  # deviation over the coefficient, above which that is not identifiable
-FLAT = 1e-9  # height over the largest, below which a profile without noise is a line
+FLAT = 1e-9  # height over the largest, below which a profile without noise is level
 NONE = 3.0  # deviations of its volume, below which a profile without a coefficient has no scar
 RISES = 5.0  # times the noise of its ends by which a profile lies above the line through them, if it is no scar
 SIDES = 3  # points beyond the scar, on each side, that hold the height of the unworn surface
@@ -227,7 +227,7 @@ def _sound(x, height, level):
     line, outer = _line(x, height, level)
     noise = np.sqrt(0.5 * np.mean(np.diff(height) ** 2) / outer)
     if np.ptp(height - line) <= FLAT * np.max(np.abs(height), initial=0.0):
-        raise Error("it has no scar: all heights lie on a line: measure where the contact was, or after more cycles")
+        raise Error("it has no scar: all heights are the same: measure where the contact was, or after more cycles")
     if np.mean(height - line) > RISES * noise:
         raise Error(
             f"the profile rises between its ends, by up to {1e6 * np.max(height - line):.3g} um, and a scar is "
