@@ -524,7 +524,7 @@ def test_prefix_suits_the_largest_value(unit, value, factor, text):
 
 def test_errors_are_bars(petsam, tmp_path):
     """Of each number those of its steps, of the energy their sum; none without them."""
-    loads = history(tmp_path / "h.csv", "time,load_n,load_tx", (1, 1000, 0), (2, 1000, 50), (3, 1000, -20))
+    loads = history(tmp_path / "h.csv", "time,load_n,load_tx", (1, 1000, 0), (2, 1000, 50), (3, 1000, -60))
     case = {**SPHERE, "load_n": None, "friction": 0.1, "grid_n": 32, "output": "e.h5"}
     petsam(case, loads, "-errors", "companion")
     with package.open(tmp_path / "e.h5") as file:

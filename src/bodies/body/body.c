@@ -324,7 +324,7 @@ static PetscErrorCode ReadName(const SamOptions *from, Names *names)
   const SamOptions all = {from->comm, NULL};
   char             option[SAM_PREFIX + 8], words[512], why[700];
   PetscBool        given;
-  SamOptionRow     row = {option, "material by its name (-help materials), or by E,nu: constants that are not given",
+  SamOptionRow     row = {option, "material by name (-help materials), or by E,nu: constants that are not given",
                           SAM_OPTION_STRING, .size = sizeof(names->text), .words = words};
 
   PetscFunctionBegin;
