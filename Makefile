@@ -175,7 +175,7 @@ $(B)/venv/tests-done: tests/requirements.txt tests/requirements-optional.txt $(B
 	done < tests/requirements-optional.txt
 	touch $@
 
-test: all units bench-programs $(B)/venv/tests-done ## run all tests but the slow ones (about 9 minutes on two cores)
+test: all units bench-programs $(B)/venv/tests-done ## run all tests but the slow ones (about 12 minutes on two cores)
 	$(PYTHON) tests/run.py --build $(B)
 
 check-slow: all units bench-programs $(B)/venv/tests-done ## run the slow tests that `make test` leaves out, and all others on the ranks that it leaves out
