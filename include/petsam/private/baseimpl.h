@@ -276,6 +276,8 @@ static inline double SamGapRounding(double traction, double self, double cells, 
 */
 PETSC_EXTERN PetscErrorCode SamSum(MPI_Comm comm, PetscInt n, double values[]);
 PETSC_EXTERN PetscErrorCode SamMax(MPI_Comm comm, PetscInt n, double values[]);
+/* SamCountNodes - counts the nodes that the ranks are on, and the most ranks of one of them. Collective. */
+PETSC_EXTERN PetscErrorCode SamCountNodes(MPI_Comm comm, double *nodes, double *most);
 
 /*
   SamTotal - a sum with three times the digits of a double. A row of the grid always lies on one rank, so the sum over a

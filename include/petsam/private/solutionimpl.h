@@ -162,10 +162,11 @@ static inline double SamIncrementMix(const double share[2], const double before[
 
 /*
   SamIncrementGetWork - returns the frictional work (J/m2) of this rank's cell k in the row that was computed last, and
-  gets the shares of SamIncrementGetCellMotion(). The bound stands for the shear, which it is where a cell slips; what
-  is left of the slip of cells that stick does no work. Not collective.
+  gets shares and motion of SamIncrementGetCellMotion(). The bound stands for the shear, which it is where a cell slips;
+  what is left of the slip of cells that stick does no work. Not collective.
 */
-PETSC_INTERN double SamIncrementGetWork(const SamIncrement *increment, ptrdiff_t k, double share[2]);
+PETSC_INTERN double SamIncrementGetWork(const SamIncrement *increment, ptrdiff_t k, double share[2],
+                                        SamCellMotion *motion);
 
 /* SamSolutionComputeStates - computes the state of each cell, a SamCellState as a real number. Not collective. */
 PETSC_INTERN PetscErrorCode SamSolutionComputeStates(const SamSolution *solution, Vec states);

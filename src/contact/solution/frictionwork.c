@@ -18,7 +18,8 @@ static void FrictionRow(const Fields *f, const SamIncrement *increment, ptrdiff_
     const ptrdiff_t k      = first + i;
     const double    length = hypot(sx[i], sy[i]);
     double          share[2];
-    const double    work = SamIncrementGetWork(increment, k, share);
+    SamCellMotion   motion;
+    const double    work = SamIncrementGetWork(increment, k, share, &motion);
 
     if (f->path) f->path[k] = length;
     if (f->pressed) f->pressed[k] = SamIncrementMix(share, increment->at_before.p, increment->at_now.p, k) * length;

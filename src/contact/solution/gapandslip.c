@@ -353,11 +353,11 @@ SamCellMotion SamIncrementGetCellMotion(const SamIncrement *s, ptrdiff_t k, doub
   return motion;
 }
 
-double SamIncrementGetWork(const SamIncrement *s, ptrdiff_t k, double share[2])
+double SamIncrementGetWork(const SamIncrement *s, ptrdiff_t k, double share[2], SamCellMotion *motion)
 {
   const ptrdiff_t i = k % s->grid->nx;
 
-  (void)SamIncrementGetCellMotion(s, k, share);
+  *motion = SamIncrementGetCellMotion(s, k, share);
   return SamIncrementMix(share, s->at_before.b, s->at_now.b, k) * hypot(s->row[0][i], s->row[1][i]);
 }
 

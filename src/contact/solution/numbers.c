@@ -40,10 +40,11 @@ static void SumRow(const SamIncrement *increment, PetscInt j, const PetscInt spa
     const ptrdiff_t    k = first + i, l = k + cells;
     const SamCellState state = SamCellStateOf(p[k], q[k], q[l], b[k]);
     double             share[2];
-    const double       work = SamIncrementGetWork(increment, k, share);
+    SamCellMotion      motion;
+    const double       work = SamIncrementGetWork(increment, k, share, &motion);
 
     sums[DISSIPATED] += work;
-    if (SamIncrementGetCellMotion(increment, k, share) == SAM_CELL_MOTION_RELEASED) sums[RELEASED] += work;
+    if (motion == SAM_CELL_MOTION_RELEASED) sums[RELEASED] += work;
     if (increment->solutions[0]) {
       sums[BEARS] += b[k];
       sums[BORE] += v0->b[k];
@@ -109,10 +110,10 @@ static void AddErrors(const SamIncrement *increment, PetscInt j, const PetscInt 
   if (!increment->solutions[0]) return;
   SamIncrementTurnRow(increment, j, turned);
   for (PetscInt i = span[0]; i < span[1]; i++) {
-    const ptrdiff_t     k = (ptrdiff_t)j * increment->grid->nx + i;
-    double              share[2];
-    const SamCellMotion motion = SamIncrementGetCellMotion(increment, k, share);
-    const double        length = hypot(sx[i], sy[i]), work = SamIncrementMix(share, b0, b1, k) * length;
+    const ptrdiff_t k = (ptrdiff_t)j * increment->grid->nx + i;
+    double          share[2];
+    SamCellMotion   motion;
+    const double    work = SamIncrementGetWork(increment, k, share, &motion), length = hypot(sx[i], sy[i]);
 
     if (work == 0) continue;
     if (motion == SAM_CELL_MOTION_ALWAYS) {

@@ -89,20 +89,6 @@ static PetscErrorCode DescribeLibraries(char text[], size_t size)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode CountNodes(MPI_Comm comm, double *nodes)
-{
-  MPI_Comm    node;
-  PetscMPIInt rank;
-
-  PetscFunctionBegin;
-  PetscCallMPI(MPI_Comm_split_type(comm, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &node));
-  PetscCallMPI(MPI_Comm_rank(node, &rank));
-  PetscCallMPI(MPI_Comm_free(&node));
-  *nodes = rank ? 0 : 1;
-  PetscCall(SamSum(comm, 1, nodes));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* Prints the checkpoint from which the run continues. */
 static PetscErrorCode PrintRestart(SamReport r, const SamSimulationStart *s)
 {
@@ -129,7 +115,7 @@ PetscErrorCode SamReportBanner(SamReport r, const SamSetup *setup, const double 
 {
   const SamGrid grid = setup->grid;
   PetscMPIInt   ranks;
-  double        nodes, most = bytes[0];
+  double        nodes, fullest, most = bytes[0];
   char          libraries[512], memory[32];
 
   PetscFunctionBegin;
@@ -138,7 +124,7 @@ PetscErrorCode SamReportBanner(SamReport r, const SamSetup *setup, const double 
   if (!start->companions) r->offer = start->share;
   if (r->quiet) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCallMPI(MPI_Comm_size(r->comm, &ranks));
-  PetscCall(CountNodes(r->comm, &nodes));
+  PetscCall(SamCountNodes(r->comm, &nodes, &fullest));
   PetscCall(SamMax(r->comm, 1, &most));
   PetscCall(DescribeLibraries(libraries, sizeof(libraries)));
   PetscCall(PetscPrintf(r->comm, "petsam %s: partial-slip contact by the semi-analytical method\n", PETSAM_VERSION));

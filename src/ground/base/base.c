@@ -96,6 +96,23 @@ PetscErrorCode SamMax(MPI_Comm comm, PetscInt n, double values[])
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode SamCountNodes(MPI_Comm comm, double *nodes, double *most)
+{
+  MPI_Comm    node;
+  PetscMPIInt rank, size;
+
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Comm_split_type(comm, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &node));
+  PetscCallMPI(MPI_Comm_rank(node, &rank));
+  PetscCallMPI(MPI_Comm_size(node, &size));
+  PetscCallMPI(MPI_Comm_free(&node));
+  *nodes = rank ? 0 : 1;
+  *most  = size;
+  PetscCall(SamSum(comm, 1, nodes));
+  PetscCall(SamMax(comm, 1, most));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamKeepMessage(MPI_Comm comm, int line, const char *function, const char *file, PetscErrorCode code,
                               PetscErrorType type, const char *message, void *context)
 {

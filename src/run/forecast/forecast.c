@@ -133,16 +133,10 @@ static PetscErrorCode TimeStep(SamSimulation s, double *seconds)
 /* Returns the most ranks of a node: of this run if it is on several nodes, or the cores of this machine. */
 static PetscErrorCode FindCores(MPI_Comm comm, int ranks, int *cores)
 {
-  MPI_Comm    node;
-  PetscMPIInt size;
-  double      most;
+  double nodes, most;
 
   PetscFunctionBegin;
-  PetscCallMPI(MPI_Comm_split_type(comm, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &node));
-  PetscCallMPI(MPI_Comm_size(node, &size));
-  PetscCallMPI(MPI_Comm_free(&node));
-  most = size;
-  PetscCall(SamMax(comm, 1, &most));
+  PetscCall(SamCountNodes(comm, &nodes, &most));
   if (most == ranks) {
     most = PetscMax(most, (double)sysconf(_SC_NPROCESSORS_ONLN));
     PetscCall(SamMax(comm, 1, &most));

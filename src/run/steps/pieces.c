@@ -75,9 +75,10 @@ PetscErrorCode SamSimulationDeclarePieces(SamSimulation s)
 
   PetscFunctionBegin;
   PetscCall(SamContactGetState(s->setup.contact, &state));
-  if (s->step_rtol > 0) PetscCall(SamStateDeclareNumber(state, &so_far, &id));
-  if (s->step_rtol == 0)
-    PetscCall(SamStateDeclareOptional(state, &so_far, 0, &id)); /* of runs that go on from others */
+  if (s->step_rtol > 0)
+    PetscCall(SamStateDeclareNumber(state, &so_far, &id));
+  else /* of runs that go on from others */
+    PetscCall(SamStateDeclareOptional(state, &so_far, 0, &id));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
