@@ -358,6 +358,7 @@ double SamIncrementGetWork(const SamIncrement *s, ptrdiff_t k, double share[2], 
   const ptrdiff_t i = k % s->grid->nx;
 
   *motion = SamIncrementGetCellMotion(s, k, share);
+  if (*motion == SAM_CELL_MOTION_NONE) return 0;
   return SamIncrementMix(share, s->at_before.b, s->at_now.b, k) * hypot(s->row[0][i], s->row[1][i]);
 }
 

@@ -113,12 +113,13 @@ static void AddErrors(const SamIncrement *increment, PetscInt j, const PetscInt 
     const ptrdiff_t k = (ptrdiff_t)j * increment->grid->nx + i;
     double          share[2];
     SamCellMotion   motion;
-    const double    work = SamIncrementGetWork(increment, k, share, &motion), length = hypot(sx[i], sy[i]);
+    const double    work = SamIncrementGetWork(increment, k, share, &motion);
+    double          length;
 
     if (work == 0) continue;
+    length = hypot(sx[i], sy[i]);
     if (motion == SAM_CELL_MOTION_ALWAYS) {
-      const double half = hypot(sx[i] - turned[0][i], sy[i] - turned[1][i]) / length;
-
+      const double half  = hypot(sx[i] - turned[0][i], sy[i] - turned[1][i]) / length;
       const double stays = PetscMax(0, 1 - fabs(b1[k] - b0[k]) / (CHANGES * b1[k]));
 
       if (increment->solutions[1]->rule == SAM_RULE_END) {
