@@ -12,7 +12,7 @@
   before and after the step that depends on how it slid (SamIncrementGetCellMotion()), which makes the sum over steps
   second order with the slip of step/direction.c.
 */
-enum { CONTACT, STICK, DISSIPATED, RELEASED, STORED, LOCKED, BORE, BEARS, ERROR, TURNED, BEFORE_TOUCH, SUMS };
+enum { CONTACT, STICK, DISSIPATED, RELEASED, ENTERED, STORED, LOCKED, BORE, BEARS, ERROR, TURNED, BEFORE_TOUCH, SUMS };
 enum { PRESSURE, SHEAR, SLIP, MOSTS }; /* the last two are stored as squares */
 
 /* Returns the additional work of slip in this rank's cell k if the cell had touched before the step (TOUCHES,
@@ -45,6 +45,7 @@ static void SumRow(const SamIncrement *increment, PetscInt j, const PetscInt spa
 
     sums[DISSIPATED] += work;
     if (motion == SAM_CELL_MOTION_RELEASED) sums[RELEASED] += work;
+    if (motion == SAM_CELL_MOTION_ENTERS) sums[ENTERED] += work;
     if (increment->solutions[0]) {
       sums[BEARS] += b[k];
       sums[BORE] += v0->b[k];
@@ -72,6 +73,7 @@ static void SumRow(const SamIncrement *increment, PetscInt j, const PetscInt spa
     of cells that begin to slide                   BEGINS (1/2 - share) abs(b - b_before) ds   anywhere in the step
     of cells that slide back                       RETURNS (1/2 - share) abs(b - b_before) ds   likewise
     where contact is made or left                  CROSSES b/10 ds            0.5 of the bounds instead of 0.4
+    where most of the work is where it is made     MAKES w^2/dissipated        w is that: such cells may not have slid
     of dissimilar bodies, where contact is made    TOUCHES w^2/(w + dissipated)   w is what was slip before they touch
     of the first step of others                    all of it: loads in proportion need not slide at all
     of a first step in which bodies yield          all of it: the displacements do not grow in proportion
@@ -91,7 +93,8 @@ static void SumRow(const SamIncrement *increment, PetscInt j, const PetscInt spa
 #define BEGINS  0.6
 #define RETURNS 0.3
 #define CROSSES 0.3
-#define TOUCHES 0.05
+#define MAKES   0.6
+#define TOUCHES 0.08
 
 /* The error by the time at which a cell begins to slide within the step; more is known of cells that slide back. */
 static double ErrorOfBegin(const SamIncrement *increment, SamCellMotion motion, const double share[2])
@@ -135,11 +138,12 @@ static void AddErrors(const SamIncrement *increment, PetscInt j, const PetscInt 
   }
 }
 
-static double ErrorOfTouching(const double sums[SUMS])
+static double ErrorOfTouching(SamSlipRule rule, const double sums[SUMS])
 {
-  const double w = PetscMax(sums[BEFORE_TOUCH], 0);
+  const double w = PetscMax(SamRuleTouches(rule) ? sums[BEFORE_TOUCH] : sums[ENTERED], 0);
 
-  return w > 0 ? TOUCHES * w * w / (w + sums[DISSIPATED]) : 0;
+  if (w == 0) return 0;
+  return SamRuleTouches(rule) ? TOUCHES * w * w / (w + sums[DISSIPATED]) : MAKES * w * w / sums[DISSIPATED];
 }
 
 /* The numbers, side by side in the state in this order. */
@@ -211,9 +215,9 @@ PetscErrorCode SamSolutionDeclareNumbers(SamState state, SamMotion motion)
 }
 
 /* Terms beside the work of the loads: the change of the elastic energy by the shear, the work in cells that are
-   released (J), the sum of the bounds before the step (N), and the part of it that is left. */
+   released (J), and the sum of the bounds before and after the step (N). */
 typedef struct {
-  double locked, released, bore, left;
+  double locked, released, bore, bears;
 } Balance;
 
 static PetscErrorCode SumCells(SamProblem problem, const SamSolution *last, const SamSolution *s,
@@ -256,8 +260,8 @@ static PetscErrorCode SumCells(SamProblem problem, const SamSolution *last, cons
   balance->locked            = sums[LOCKED] * area;
   balance->released          = sums[RELEASED] * area;
   balance->bore              = sums[BORE] * area;
-  balance->left              = sums[BORE] > 0 ? PetscMin(sums[BEARS] / sums[BORE], 1) : 1;
-  sums[ERROR] += sums[TURNED] / PetscMax(sums[STICK] / PetscMax(sums[CONTACT], 1), LEAST) + ErrorOfTouching(sums);
+  balance->bears             = sums[BEARS] * area;
+  sums[ERROR] += sums[TURNED] / PetscMax(sums[STICK] / PetscMax(sums[CONTACT], 1), LEAST) + ErrorOfTouching(s->rule, sums);
   numbers[ENERGY_ERROR] = sums[ERROR] * area;
   numbers[ENTERING]     = sums[BEFORE_TOUCH] * area;
   numbers[TOUCHING]     = SamRuleTouches(s->rule) ? 1 : 0;
@@ -349,8 +353,9 @@ static PetscErrorCode HasBalance(SamProblem problem, const SamSolution *before, 
   cells that lose or make contact under shear the slip of a long step tells little. The work is certain where the
   displacement is held, or the load; else it is that of a load which changes in proportion to the displacement, give or
   take CURVED times the product of both changes: that of a load which changes at once, as where all slides back. Where N
-  stays, the sum over cells is far better, and within that. Where N falls, as large a part of the difference counts as
-  the bounds of the shear have lost. In cells that are released that part of RELEASES times their work counts, as they
+  stays, the sum over cells is far better, and within that. Where N falls or grows, as large a part of the difference
+  counts as the bounds of the shear have lost or won. Where N grows and all sticks, the difference is that of the shear
+  which is locked in: later steps dissipate it; less than LOCKS of what is locked in counts as none. In cells that are released that part of RELEASES times their work counts, as they
   slide in another order in a long step; where contact is lost as a whole, of the uncertain work, too, and of half the
   work of the bounds along the displacement: that may go back with N, or begin with it, so that nothing seems to be
   lost. Of bodies without this balance that is all that is known. What is rounding beside the energy that both bodies
@@ -358,11 +363,13 @@ static PetscErrorCode HasBalance(SamProblem problem, const SamSolution *before, 
 */
 #define CURVED   0.5
 #define RELEASES 0.3
+#define LOCKS    0.002
 #define ROUNDING 1e-9
 static double ErrorByBalance(const SamSolution *before, const SamSolution *s, PetscBool balances,
                              const double numbers[NUMBERS], const Balance *balance)
 {
-  double way[3], work = 0, unsure = 0, lost, lacks, loses;
+  const double more = PetscMax(balance->bore, balance->bears), less = PetscMin(balance->bore, balance->bears);
+  double       way[3], work = 0, unsure = 0, lost, lacks, loses, stiffer;
 
   for (PetscInt n = 0; n < 3; n++) {
     const PetscInt c = SamComponentsOf[SAM_BALANCE_TANGENTIAL][n];
@@ -372,11 +379,12 @@ static double ErrorByBalance(const SamSolution *before, const SamSolution *s, Pe
     unsure += CURVED * fabs((double)(s->load[c] - before->load[c]) * way[n]);
   }
   lost = RELEASES * PetscMax(balance->released, PetscMax(unsure, CURVED * balance->bore * hypot(way[0], way[1])));
-  if (!balances) return balance->left > 0 ? 0 : lost;
-  lacks = fabs(work - balance->locked - numbers[DISSIPATED_ENERGY]);
+  stiffer = more > 0 ? 1 - cbrt(less / more) : 0;
+  lacks = balances ? fabs(work - balance->locked - numbers[DISSIPATED_ENERGY]) : unsure * stiffer / (2 - stiffer) / 3;
   if (lacks <= ROUNDING * numbers[STORED_ENERGY]) lacks = 0;
-  loses = PetscMax(lacks, balance->left > 0 ? RELEASES * balance->released : lost);
-  return PetscMax(PetscMax(lacks - unsure, 0), (1 - balance->left) * loses);
+  if (more == balance->bears && lacks <= LOCKS * (fabs(balance->locked) + unsure)) lacks = 0;
+  loses = PetscMax(lacks, balance->bears > 0 ? RELEASES * balance->released : lost);
+  return PetscMax(PetscMax(lacks - unsure, 0), balance->bore > 0 ? (1 - less / more) * loses : 0);
 }
 
 PetscErrorCode SamSolutionComputeNumbers(SamProblem problem, SamState state, const SamSolution *before,

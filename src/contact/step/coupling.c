@@ -56,6 +56,9 @@
 #define NORMAL_FINAL     0.3
 #define NORMAL_ENOUGH    0.7 /* the check's scale, the whole displacement, may be smaller than the one by p */
 #define TANGENTIAL_FINAL 0.5
+/* Part of the last change of the shear to which the shear is solved where the motion until cells touch changes with
+   it: that may change the shear far more than the lift does. */
+#define FOLLOWS          0.05
 /* Error below which both problems are solved as one system (together.c), if after so many passes they have left a
    larger part of the error than SLOW on average: else passes are cheaper, as a product of the system leaves 0.4. */
 #define CLOSE        1e-2
@@ -92,6 +95,7 @@ typedef struct {
   Vec       calm;    /* the motion until cells touch with which the shear changed least; NULL: none yet */
   PetscReal calmest; /* that relative change, and the one at which the passes were last counted from 0 */
   PetscReal mark;
+  PetscReal changed;  /* relative change of the shear in the last pass */
   PetscInt  restless; /* number of passes since then */
   PetscInt  earlier;  /* number of passes before that motion was made to stay */
 } Passes;
@@ -164,7 +168,9 @@ static PetscErrorCode Solve(Passes *p, PetscInt pass)
   const PetscReal error = PetscMin(p->error, FIRST);
   /* the motion until cells touch need not settle, and follows from the shear of the first passes, too */
   const PetscReal part   = p->rough && s->touching ? PetscMin(error, SAM_ROUGH * p->rtol[1]) : error;
-  const PetscReal rtol   = p->sharper * PetscMax(TANGENTIAL_FINAL * PetscMin(p->rtol[0], p->rtol[1]), part);
+  const PetscReal moves  = SamSolveFindsTouching(s) ? FOLLOWS * p->changed : 0;
+  const PetscReal rtol =
+    p->sharper * PetscMax(TANGENTIAL_FINAL * PetscMin(p->rtol[0], p->rtol[1]), PetscMax(part, PetscMin(moves, FIRST)));
   const SamEffort effort = brief ? SAM_EFFORT_FEW_ITERATIONS : SAM_EFFORT_FULL;
   SamSolverReason reason;
   PetscReal       left;
@@ -268,7 +274,8 @@ static PetscErrorCode Compare(Passes *p, PetscInt pass, PetscBool *solved)
   if (set->coupling_monitor)
     PetscCall(PetscPrintf(s->grid->comm, "%5" PetscInt_FMT " coupling error %.6e change of p %.6e q %.6e%s\n", pass,
                           (double)p->error, (double)change[0], (double)change[1], p->slides ? " slides" : ""));
-  *solved = *solved && (pass == 1 || PetscMax(change[0], change[1]) <= set->coupling_rtol);
+  p->changed = pass > 1 ? change[1] : 0;
+  *solved    = *solved && (pass == 1 || PetscMax(change[0], change[1]) <= set->coupling_rtol);
   if (SamSolveFindsTouching(s) && pass > 1) PetscCall(KeepCalm(p, change[1]));
   if (*solved && p->slides) PetscCall(SamSolveJudge(s, SAM_BALANCE_TANGENTIAL));
   PetscFunctionReturn(PETSC_SUCCESS);
