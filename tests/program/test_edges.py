@@ -1,11 +1,13 @@
 """Edges of contact and stick: areas, points and values at the centres, which fields are saved, and the correction."""
 
+import re
+
 import h5py
 import numpy as np
 import pytest
 
 import petsam as package
-from support import SPHERE, closed, hertz, slide_limit
+from support import SPHERE, closed, elliptic_hertz, hertz, slide_limit
 
 USUAL = {"pressure", "shear_x", "shear_y", "slip_x", "slip_y", "state"}
 SCALES = {"x", "y", "time", "point", "coordinate"}
@@ -136,6 +138,47 @@ def test_width_of_the_slip_zone_is_its_area_over_the_edge(solve):
         case, c = cattaneo(share)
         r = solve(case)
         assert r["slip_width"] == pytest.approx(hertz(case).radius * (1 - c**2) / 2, rel=0.02)
+
+
+@pytest.mark.parametrize("ranks", [1, 2, 3])
+def test_half_widths_are_hertz_and_cattaneos(solve, ranks):
+    """On cells that do not divide, of a sphere and of an ellipse; by whole cells without edges."""
+    case, c = cattaneo(0.6, grid_n=(47, 53))
+    r, a = solve(case, ranks=ranks), hertz(case).radius
+    sides = dict(x=case["grid_size"] / 47, y=case["grid_size"] / 53)
+    counted = solve(dict(case, edges="none"))
+    for axis, cell in sides.items():
+        assert abs(r[f"contact_half_{axis}"] - a) < cell / 70
+        assert abs(r[f"stick_half_{axis}"] - c * a) < cell / 40
+        for name in ("contact", "stick"):
+            halves = 2 * counted[f"{name}_half_{axis}"] / cell
+            assert halves == pytest.approx(round(halves), abs=1e-9)
+    names = [f"{name}_half_{axis}" for name in ("contact", "stick") for axis in "xy"]
+    assert [r[name] for name in names] == [solve(case)[name] for name in names]
+    oval = dict(case, gap_type="ellipsoid", gap_radius1=None, gap_radius2=None, gap_radius_x=0.1, gap_radius_y=0.05)
+    e_star = closed.effective_modulus(*[case[f"body{body}_{name}"] for body in "12" for name in ("young", "poisson")])
+    exact = elliptic_hertz(case["load_n"], 0.1, 0.05, e_star)[:2]
+    found = solve(oval, ranks=ranks)
+    for axis, half in zip("xy", exact):
+        assert abs(found[f"contact_half_{axis}"] - half) < sides[axis] / 50
+        assert abs(found[f"stick_half_{axis}"] - c * half) < sides[axis] / 25
+
+
+def test_half_widths_are_printed(petsam, tmp_path):
+    """Of a single step, and after the table of several ones those of the last; along x only in plane strain."""
+    one = r"half width  contact (\S+) m along x, (\S+) m along y; stick (\S+) m along x, (\S+) m along y"
+    case, c = cattaneo(0.6, grid_n=45)
+    a = hertz(case).radius
+    halves = [float(text) for text in re.search(one + "\n", petsam(case).stdout).groups()]
+    assert halves == pytest.approx([a, a, c * a, c * a], rel=3e-3)
+    (tmp_path / "h.csv").write_text("time, load_n\n1, 300\n2, 1000\n")
+    said = petsam(dict(case, load_n=None, load_tx=None, history="h.csv")).stdout
+    last = [float(text) for text in re.search(one + r" \(last step\)\n", said).groups()]
+    assert last[:2] == pytest.approx([a, a], rel=3e-3) and said.count("half width") == 1
+    plane = dict(case, elasticity="plane", load_n=3e5, load_tx=1e4, output="out.h5")
+    assert re.search(r"half width  contact (\S+) m; stick (\S+) m\n", petsam(plane).stdout)
+    with package.open(tmp_path / "out.h5") as results:
+        assert results.history["contact_half_x"][-1] > 0 and np.isnan(results.history["contact_half_y"][-1])
 
 
 @pytest.mark.filterwarnings("ignore")

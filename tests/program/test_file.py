@@ -59,6 +59,10 @@ HISTORY = dict(
     dissipated_energy_closed="J",
     edge_accepted="1",
     slip_width="m",
+    contact_half_x="m",
+    contact_half_y="m",
+    stick_half_x="m",
+    stick_half_y="m",
     pressure_max="Pa",
     shear_max="Pa",
 )

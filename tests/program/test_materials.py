@@ -192,9 +192,17 @@ def test_a_body_by_its_two_numbers_is_that_of_its_moduli(text):
     other = package.run(**given, **TITANIUM)
     assert found.history["contact_area"].tolist() == other.history["contact_area"].tolist()
     assert materials.resolved(dict(body2=text)) == dict(body2_young=pytest.approx(113.8e9), body2_poisson=0.342)
+    for poisson in (0.5, -0.2):
+        bodies = dict(body1=f"90GPa,{poisson}"), dict(body1_young=90e9, body1_poisson=poisson)
+        areas = [package.run(**given, **one, body2="steel").history["contact_area"][-1] for one in bodies]
+        assert areas[0] == areas[1] > 0 and materials.elastic(bodies[0]["body1"]) == (90e9, poisson)
     del given["load_n"], given["output_fields"]
-    for wrong in ("210GPa", "210GPa,0.5", "-1,0.3", "210GPa,0.3,1"):
+    for wrong in ("210GPa", "210GPa,0.3,1"):
         with pytest.raises(package.ContactError, match=f"-body1 {wrong}: .*or Young's modulus and Poisson's ratio"):
+            package.Contact(**{**given, "body1": wrong, "body2": "steel"})
+    ranges = dict(poisson="a number above -1 and at most 0.5", young="a number > 0 or inf")
+    for wrong, name, value in (("1GPa,0.6", "poisson", "0.6"), ("1GPa,-1", "poisson", "-1"), ("-1,0.3", "young", "-1")):
+        with pytest.raises(package.ContactError, match=f"-body1_{name} {value}: expected {ranges[name]}"):
             package.Contact(**{**given, "body1": wrong, "body2": "steel"})
 
 
@@ -230,7 +238,9 @@ def test_a_material_of_a_joint_is_a_name_or_its_moduli(text, both):
 
 
 def test_what_is_neither_a_name_nor_moduli_is_refused():
-    with pytest.raises(words.WordError, match="5,9: expected steel, 100Cr6, .*, or Young's modulus"):
+    with pytest.raises(
+        words.WordError, match="5,9: expected steel, 100Cr6, .*, or Young's modulus.*above -1, up to 0.5"
+    ):
         materials.elastic("5,9")
     with pytest.raises(words.WordError, match="210GPa: expected steel"):
         materials.elastic("210GPa")

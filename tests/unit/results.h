@@ -83,6 +83,7 @@ static const struct {
                {"contact_cells", "1", 130, 1},
                {"stick_cells", "1", 140, 1},
                {"edge_accepted", "1", 47, 0},
+               {"contact_half_x", "m", 48, 0},
                {"pressure_max", "Pa", 150, 0},
                {"shear_max", "Pa", 160, 0},
                {"stored_energy", "J", 45, 0},

@@ -74,6 +74,91 @@ static void test_area_is_of_second_order(void **state)
   sam_assert(errors[1] < errors[0] / 8); /* four times as many cells in a direction */
 }
 
+/* Half widths: within 1/70 of a cell on any grid, 1/14 where a cell is rejected; by whole
+   cells they are wrong by up to a half. */
+static void test_half_widths_are_found_to_a_fraction_of_a_cell(void **state)
+{
+  static const char *const names[4] = {"contact_half_x", "contact_half_y", "stick_half_x", "stick_half_y"};
+  static const PetscInt    cells[2] = {37, 149};
+  double                   counted  = 0;
+
+  (void)state;
+  for (int fine = 0; fine < 2; fine++)
+    for (int k = 0; k < 3; k++) {
+      Case         c        = NewBeside(PLAIN, cells[fine], 1.5, places[k][0], places[k][1], 0.6, "");
+      const double exact[2] = {1e-3, 1e-3 * cbrt(0.4)}, cell = c.s.grid->dx;
+      const double part = NumberOf(&c, "edge_accepted") < 1 ? 14 : 70;
+      PetscInt     first[2], n[2];
+
+      sam_call(SamGridGetSupport(c.s.grid, SolutionOf(&c)->pressure, PETSC_FALSE, first, n));
+      for (int i = 0; i < 2; i++) counted = fmax(counted, fabs(0.5 * (double)n[i] * cell - exact[0]) / cell);
+      for (int i = 0; i < 4; i++) sam_assert_close(NumberOf(&c, names[i]), exact[i / 2], cell / part);
+      DestroyCase(&c);
+    }
+  sam_assert(counted > 0.3);
+}
+
+/* Cells that are rejected count as whole ones, unless the edge beside them is known. */
+static void test_half_widths_of_counted_cells(void **state)
+{
+  SamGrid grid = NewGridOn(PETSC_COMM_WORLD, 64, 41, 64, 41, 0, 0);
+  Vec     w    = NewField(grid, 1);
+  SamEdge edge[2];
+  double *array;
+
+  (void)state;
+  for (int bump = 0; bump < 2; bump++) {
+    sam_call(VecGetArray(w, &array));
+    for (PetscInt c = 0; c < grid->cells; c++) {
+      const double x = SamGridX(grid, c % 64), y = SamGridY(grid, grid->row_start + c / 64), r = hypot(x, y) / 15.3;
+
+      array[c] = fmax(0, 1 - r * r);
+      if (bump && x == 25.5 && y == 0) array[c] = 1;
+    }
+    sam_call(VecRestoreArray(w, &array));
+    sam_call(SamEdgeReconstruct(grid, PETSC_FALSE, w, &edge[bump]));
+    sam_call(SamEdgeDestroy(&edge[bump]));
+  }
+  sam_assert_close(edge[0].half[0], 15.3, 0.05);
+  sam_assert(edge[1].half[1] == edge[0].half[1]);
+  sam_assert_close(edge[1].half[0], (edge[0].half[0] + 26 - SAM_EDGE_FACE) / 2, 1e-12);
+  sam_call(VecDestroy(&w));
+  sam_call(SamGridDestroy(&grid));
+}
+
+/* A disc and an ellipse over the border of a period have the half widths of those in its middle. */
+static void test_half_widths_of_periodic_zones(void **state)
+{
+  static const double at[][2] = {{0, 0}, {20, 0}, {-20, 15}, {13, -15}};
+  PetscReal           half[4][2];
+
+  (void)state;
+  for (int k = 0; k < 4; k++) {
+    SamGrid grid = NewGridOn(PETSC_COMM_WORLD, 41, 31, 41, 31, 0, 0);
+    Vec     w    = NewField(grid, 1);
+    SamEdge edge;
+    double *array;
+
+    sam_call(VecGetArray(w, &array));
+    for (PetscInt c = 0; c < grid->cells; c++) {
+      const double x = remainder(SamGridX(grid, c % 41) - at[k][0], 41) / 16.3,
+                   y = remainder(SamGridY(grid, grid->row_start + c / 41) - at[k][1], 31) / 11.8;
+
+      array[c] = fmax(0, 1 - x * x - y * y);
+    }
+    sam_call(VecRestoreArray(w, &array));
+    sam_call(SamEdgeReconstruct(grid, PETSC_TRUE, w, &edge));
+    for (int i = 0; i < 2; i++) half[k][i] = edge.half[i];
+    sam_call(SamEdgeDestroy(&edge));
+    sam_call(VecDestroy(&w));
+    sam_call(SamGridDestroy(&grid));
+  }
+  sam_assert_close(half[0][0], 16.3, 0.05);
+  sam_assert_close(half[0][1], 11.8, 0.05);
+  for (int k = 1; k < 4; k++)
+    for (int i = 0; i < 2; i++) sam_assert_close(half[k][i], half[0][i], 1e-10 * half[0][i]);
+}
+
 /* Cattaneo: the slack mu p - |q| vanishes like a root at the edge of stick, whose radius is (1 - T/mu N)^(1/3). */
 static void test_edge_of_stick_is_cattaneos(void **state)
 {
@@ -429,6 +514,9 @@ int main(int argc, char **argv)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(test_edge_of_hertz_is_found_to_a_fraction_of_a_cell),
     cmocka_unit_test(test_area_is_of_second_order),
+    cmocka_unit_test(test_half_widths_are_found_to_a_fraction_of_a_cell),
+    cmocka_unit_test(test_half_widths_of_counted_cells),
+    cmocka_unit_test(test_half_widths_of_periodic_zones),
     cmocka_unit_test(test_edge_of_stick_is_cattaneos),
     cmocka_unit_test(test_step_has_the_areas_of_its_edges),
     cmocka_unit_test(test_peak_is_not_sought_where_slip_is_not_resolved),

@@ -209,7 +209,7 @@ typedef struct {
   SamMaterialFind - returns the material of a name, where case, blanks, hyphens and underscores do not count; NULL if
   there is none.
   SamMaterialElastic - makes the material of Young's modulus and Poisson's ratio, as 210GPa,0.3, whose other constants
-  are not known and whose name is the text; NULL if the text is another.
+  are not known and whose name is the text; NULL if the text is another. Their range is checked with that of the body.
   SamMaterialList - writes the names of all, separated by `between`.
   SamMaterialExplain - writes the fault of an unknown name, with the nearest one and with all.
 */

@@ -13,7 +13,9 @@
   SamEdge - the edge of a zone.
 */
 typedef struct _n_SamEdge {
-  PetscReal area;  /* m2: by the reconstructed edge; where it is rejected, by cells minus SAM_EDGE_FACE per face */
+  PetscReal area; /* m2: by the reconstructed edge; where it is rejected, by cells minus SAM_EDGE_FACE per face */
+  PetscReal
+    half[2];       /* m: half of the zone's extent along x and y, 0 without cells; over the border of a periodic grid */
   PetscInt  cells; /* number of cells in the zone */
   PetscReal faces, good; /* number of faces to cells outside, and of those with an accepted reconstruction */
   /* points of the reconstructed edge, one in each of this rank's cells that it crosses */

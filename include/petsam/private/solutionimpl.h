@@ -186,9 +186,9 @@ PETSC_INTERN PetscErrorCode SamSolutionComputeRolling(SamProblem problem, const 
 
 /*
   SamSolutionDeclareNumbers - declares the numbers of /history, by their names in the motion, that
-  SamSolutionComputeNumbers() computes in the tried generation: cells and areas, by counted cells or (`edges`)
-  reconstructed edges, largest tractions and slip, energies. `same_pressure`: the pressure is that of the previous step,
-  whose contact edge is kept. Collective.
+  SamSolutionComputeNumbers() computes in the tried generation: cells, areas and half widths, by counted cells or
+  (`edges`) reconstructed edges, largest tractions and slip, energies. `same_pressure`: the pressure is that of the
+  previous step, whose contact edge is kept. Collective.
   SamSolutionDeclareClosed - declares the numbers that the closed form of the dissipated energy stores.
   SamSolutionFollowClosed - computes the dissipated energy (J) of the tried step by this form, which must have followed
   all earlier steps; NAN if the form does not apply (closedenergy.c). Collective.
@@ -253,12 +253,15 @@ PETSC_INTERN PetscErrorCode SamSolutionComputeSpots(SamProblem problem, SamState
   SamSolutionFindEdge - reconstructs the contact edge or the stick-slip boundary, by the square (Pa2) of the traction
   that vanishes there: p^2 for the contact, (p - |q|/mu)^2 for the stick zone. The edge is kept with the solution's
   shear until one of its tractions changes; it is borrowed. Collective.
+  SamSolutionCountHalf - counts half of the extent of contact or stick along x and y (m) in whole cells. Collective.
   SamSolutionComputePressureCenter, SamSolutionComputeShearCenter - compute the tractions (Pa) at the centres of the
   cells, with these edges, from the means over cells in the solution. If an edge is not smooth the means stay.
   Collective.
 */
 PETSC_INTERN PetscErrorCode SamSolutionFindEdge(SamProblem problem, const SamSolution *solution, SamEdgeOf which,
                                                 const SamEdge **edge);
+PETSC_INTERN PetscErrorCode SamSolutionCountHalf(SamProblem problem, const SamSolution *solution, SamEdgeOf which,
+                                                 double half[2]);
 PETSC_INTERN PetscErrorCode SamSolutionComputePressureCenter(SamProblem problem, const SamSolution *solution,
                                                              Vec pressure);
 PETSC_INTERN PetscErrorCode SamSolutionComputeShearCenter(SamProblem problem, const SamSolution *solution,

@@ -116,13 +116,13 @@ def elastic(text: str) -> tuple[float, float]:
     if has(text):
         return find(text)[2:4]
     young, comma, poisson = text.partition(",")
-    form = f"{', '.join(TABLE)}, or Young's modulus (inf: rigid) and Poisson's ratio: 210GPa,0.3"
+    form = f"{', '.join(TABLE)}, or Young's modulus (inf: rigid) and Poisson's ratio (above -1, up to 0.5): 210GPa,0.3"
     try:
         if not comma and text[:1].isalpha():
             find(text)
         return (
             words.number(young, form, "Pa", lambda value: value > 0.0),
-            words.number(poisson, form, least=0.0, below=0.5),
+            words.number(poisson, form, allowed=lambda value: -1.0 < value <= 0.5),
         )
     except words.WordError as error:
         raise words.WordError(text, form) from error

@@ -104,6 +104,22 @@ PetscErrorCode SamSolutionFindEdge(SamProblem problem, const SamSolution *s, Sam
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode SamSolutionCountHalf(SamProblem problem, const SamSolution *s, SamEdgeOf which, double half[2])
+{
+  const SamGrid   grid     = SamProblemGetGrid(problem);
+  const PetscBool periodic = SamElasticityGetTraits(SamProblemGetElasticity(problem)).periodic;
+  PetscInt        first[2], n[2];
+  Vec             w;
+
+  PetscFunctionBegin;
+  PetscCall(SamGridCreateVec(grid, 1, &w));
+  PetscCall(FillSquares(s, which, w));
+  PetscCall(SamGridGetSupport(grid, w, periodic, first, n));
+  for (int k = 0; k < 2; k++) half[k] = 0.5 * (double)n[k] * (double)(k ? grid->dy : grid->dx);
+  PetscCall(VecDestroy(&w));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* ---- at the centres of cells ---- */
 
 /* Computes the square root of the edge function, which vanishes at the edge, at the cells' centres. */

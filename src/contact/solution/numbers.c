@@ -158,7 +158,9 @@ enum {
   SLIP_MAX,
   EDGE_ACCEPTED,
   SLIP_WIDTH,
-  DISSIPATED_ENERGY,
+  CONTACT_HALF, /* along x, and along y */
+  STICK_HALF        = CONTACT_HALF + 2,
+  DISSIPATED_ENERGY = STICK_HALF + 2,
   STORED_ENERGY,
   ENERGY_ERROR,
   CLOSED,
@@ -188,6 +190,10 @@ static const SamStateNumber declared[NUMBERS] = {
        SAM_JOIN_LAST, 0),
   REAL("slip_width", "m", "mean width of the slip zone: its area over the length of the contact's edge", SAM_JOIN_LAST,
        0),
+  REAL("contact_half_x", "m", "half width of the contact along x: half of its extent", SAM_JOIN_LAST, 0),
+  REAL("contact_half_y", "m", "half width of the contact along y: half of its extent", SAM_JOIN_LAST, 0),
+  REAL("stick_half_x", "m", "half width of the stick zone along x: half of its extent", SAM_JOIN_LAST, 0),
+  REAL("stick_half_y", "m", "half width of the stick zone along y: half of its extent", SAM_JOIN_LAST, 0),
   REAL("dissipated_energy", "J", "frictional work of the load step", SAM_JOIN_SUM, 2),
   REAL("stored_energy", "J", "elastic energy of both bodies", SAM_JOIN_LAST, 2),
   REAL("energy_error", "J", "estimated error of dissipated_energy by the length of the load step", SAM_JOIN_SUM, 0),
@@ -197,8 +203,8 @@ static const SamStateNumber declared[NUMBERS] = {
   {SAM_TOUCHING, "1", NULL, SAM_NUMBER_REAL, 1, PETSC_FALSE, PETSC_FALSE, SAM_JOIN_SUM, 0},
   {SAM_UNBALANCED, "J", NULL, SAM_NUMBER_REAL, 1, PETSC_FALSE, PETSC_FALSE, SAM_JOIN_SUM, 0}};
 
-/* Numbers of the contact edge: 1 if known, area, faces and good faces; valid until the pressure changes */
-enum { KNOWN = SAM_CONTACT_EDGE_KNOWN, AREA, FACES = SAM_CONTACT_EDGE_FACES, GOOD, EDGE };
+/* Numbers of the contact edge: 1 if known, area, faces and good faces, half widths; valid until the pressure changes */
+enum { KNOWN = SAM_CONTACT_EDGE_KNOWN, AREA, FACES = SAM_CONTACT_EDGE_FACES, GOOD, HALF, EDGE = HALF + 2 };
 static const SamStateNumber contact_edge = {
   SAM_CONTACT_EDGE, "1", "edge of contact", SAM_NUMBER_REAL, EDGE, PETSC_FALSE, PETSC_FALSE, SAM_JOIN_LAST, 0};
 
@@ -270,7 +276,7 @@ static PetscErrorCode SumCells(SamProblem problem, const SamSolution *last, cons
 
 /* ---- edges ---- */
 
-/* Computes the areas within the edges of contact and stick, and the largest shear, which is between stick and slip. */
+/* Computes areas and half widths within the edges of contact and stick, and the largest shear, between both. */
 static PetscErrorCode FindEdges(SamProblem problem, SamState state, const SamSolution *s, double contact[EDGE],
                                 double numbers[NUMBERS])
 {
@@ -285,12 +291,17 @@ static PetscErrorCode FindEdges(SamProblem problem, SamState state, const SamSol
     contact[AREA]  = edge->area;
     contact[FACES] = edge->faces;
     contact[GOOD]  = edge->good;
+    for (int k = 0; k < 2; k++) contact[HALF + k] = edge->half[k];
   }
   PetscCall(SamSolutionFindEdge(problem, s, SAM_EDGE_STICK, &edge));
   PetscCall(SamSolutionFindShear(problem, state, s, both ? edge : NULL, &numbers[SHEAR_MAX]));
   numbers[CONTACT_AREA] = contact[AREA];
   numbers[STICK_AREA]   = PetscMin(edge->area, contact[AREA]); /* both are reconstructed, each with its own error */
-  numbers[SLIP_WIDTH]   = NAN;                                 /* flat periodic bodies have no edge */
+  for (int k = 0; k < 2; k++) {
+    numbers[CONTACT_HALF + k] = contact[HALF + k];
+    numbers[STICK_HALF + k]   = PetscMin(edge->half[k], contact[HALF + k]);
+  }
+  numbers[SLIP_WIDTH] = NAN; /* flat periodic bodies have no edge */
   if (contact[FACES] > 0)
     numbers[SLIP_WIDTH] = PetscMax(contact[AREA] - (double)edge->area, 0) / SamContactEdgeLength(grid, contact[FACES]);
   numbers[EDGE_ACCEPTED] =
@@ -418,7 +429,13 @@ PetscErrorCode SamSolutionComputeNumbers(SamProblem problem, SamState state, con
   numbers[EDGE_ACCEPTED] = 0;
   numbers[SLIP_WIDTH]    = NAN;
   if (!same_pressure) contact[KNOWN] = 0;
-  if (edges) PetscCall(FindEdges(problem, state, s, contact, numbers));
+  if (edges) {
+    PetscCall(FindEdges(problem, state, s, contact, numbers));
+  } else {
+    PetscCall(SamSolutionCountHalf(problem, s, SAM_EDGE_CONTACT, &numbers[CONTACT_HALF]));
+    PetscCall(SamSolutionCountHalf(problem, s, SAM_EDGE_STICK, &numbers[STICK_HALF]));
+  }
+  if (SamGridIsRow(grid)) numbers[CONTACT_HALF + 1] = numbers[STICK_HALF + 1] = NAN; /* plane strain has no y */
   if (edges && friction && s->rolled == 0) PetscCall(SamSolutionFindSlip(problem, state, s, &numbers[SLIP_MAX]));
   if (!friction) numbers[SLIP_MAX] = NAN; /* nothing opposes it, and at the edge it is not resolved */
   PetscCall(PetscLogEventEnd(SamEvents[SAM_EVENT_EDGES], 0, 0, 0, 0));

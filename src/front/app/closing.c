@@ -289,6 +289,7 @@ static PetscErrorCode PrintResources(SamReport r)
 PetscErrorCode SamReportClosing(SamReport r, SamContact contact)
 {
   static const char *const names[] = {"normal", "tangential", "equilibrium"};
+  PetscViewer              viewer;
 
   PetscFunctionBegin;
   if (r->quiet) PetscFunctionReturn(PETSC_SUCCESS);
@@ -305,6 +306,8 @@ PetscErrorCode SamReportClosing(SamReport r, SamContact contact)
     if (k == 2) PetscCall(PetscPrintf(r->comm, "\n"));
   }
   PetscCall(PrintExtent(r));
+  PetscCall(PetscViewerASCIIGetStdout(r->comm, &viewer));
+  if (r->steps > 1 && r->done) PetscCall(SamStepViewHalves(contact, " (last step)", viewer)); /* the only one has it */
   PetscCall(PrintEdges(r));
   PetscCall(PrintEnergy(r));
   PetscCall(PrintSlip(r));

@@ -90,6 +90,26 @@ static PetscErrorCode ViewIterations(SamContact c, PetscViewer viewer)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode SamStepViewHalves(SamContact c, const char after[], PetscViewer viewer)
+{
+  static const char *const of[2] = {"contact", "stick"};
+  const PetscInt           axes  = SamContactGetGrid(c)->axes;
+
+  PetscFunctionBegin;
+  if (!(Get(c, "contact_area") > 0)) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscViewerASCIIPrintf(viewer, "  %-10s  ", "half width"));
+  for (int k = 0; k < 2; k++) {
+    char x[32], y[32];
+
+    (void)snprintf(x, sizeof(x), "%s_half_x", of[k]);
+    (void)snprintf(y, sizeof(y), "%s_half_y", of[k]);
+    PetscCall(PetscViewerASCIIPrintf(viewer, "%s%s %.6g m", k ? "; " : "", of[k], Get(c, x)));
+    if (axes > 1) PetscCall(PetscViewerASCIIPrintf(viewer, " along x, %.6g m along y", Get(c, y)));
+  }
+  PetscCall(PetscViewerASCIIPrintf(viewer, "%s\n", after));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode ViewSolution(const SamStep *s, SamContact c, const Sizes *sizes, PetscViewer viewer)
 {
   const SamMotion motion = SamContactGetMotion(c);
@@ -102,6 +122,7 @@ static PetscErrorCode ViewSolution(const SamStep *s, SamContact c, const Sizes *
                                    Get(c, "contact_area"), SamStateUnitOf(state, "contact_area"), Get(c, "stick_area"),
                                    SamStateUnitOf(state, "stick_area"), CleanEnergy(Get(c, motion->work), work),
                                    SamStateUnitOf(state, motion->work)));
+  PetscCall(SamStepViewHalves(c, "", viewer));
   PetscCall(PetscViewerASCIIPrintf(viewer, "  %-10s  pressure %.6g Pa, shear %.6g Pa", "maximum",
                                    Get(c, "pressure_max"), Get(c, "shear_max")));
   if (!isnan(slip)) PetscCall(PetscViewerASCIIPrintf(viewer, ", slip %.6g%s", slip, motion->slip_unit));

@@ -125,8 +125,11 @@ PETSC_INTERN void SamReportKeepSummaries(SamReport report, SamContact contact);
 /*
   SamStepView - prints a step in a few lines: loads, displacements, areas, check, and with `profile` iterations.
   Collective on the viewer.
+  SamStepViewHalves - prints the half widths of contact and stick, if there is contact, and a text. Collective on the
+  viewer.
 */
 PETSC_INTERN PetscErrorCode SamStepView(const SamStep *step, SamContact contact, PetscBool profile, PetscViewer viewer);
+PETSC_INTERN PetscErrorCode SamStepViewHalves(SamContact contact, const char after[], PetscViewer viewer);
 /*
   SamReportScaling - prints what a step takes on other numbers of ranks, by a model (run/forecast/scaling.c). `bytes`:
   of the largest rank here, and of it what does not depend on the grid; `lines`: rows of cells. Collective.

@@ -146,8 +146,8 @@ const SamNamedMaterial *SamMaterialElastic(const char text[], SamNamedMaterial *
   double      young, poisson;
   PetscBool   unit;
 
-  if (!SamReadReal("Pa", text, &end, &young, &unit) || *end != ',' || !(young > 0)) return NULL;
-  if (!SamReadReal(NULL, end + 1, &end, &poisson, &unit) || *end || !(poisson >= 0 && poisson < 0.5)) return NULL;
+  if (!SamReadReal("Pa", text, &end, &young, &unit) || *end != ',') return NULL;
+  if (!SamReadReal(NULL, end + 1, &end, &poisson, &unit) || *end) return NULL;
   m->name    = text;
   m->aliases = m->source = "";
   for (PetscInt k = 0; k < SAM_MATERIAL_CONSTANTS; k++) m->value[k] = NAN;

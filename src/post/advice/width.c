@@ -16,23 +16,21 @@
 
 PetscErrorCode SamAdviceMeasureZones(const SamSetup *s, SamExtent *extent)
 {
-  const PetscBool    wrap    = SamElasticityGetTraits(s->elasticity).periodic;
-  const PetscReal    cell[2] = {s->grid->dx, s->grid->dy};
+  const PetscBool    wrap = SamElasticityGetTraits(s->elasticity).periodic;
   const SamSolution *solution;
-  PetscInt           first[2], n[2];
+  PetscReal          across;
 
   PetscFunctionBegin;
   PetscCall(SamContactGetSolution(s->contact, &solution));
   PetscCall(SamGridMeasureZones(s->grid, solution->pressure, SAM_ADVICE_STRAY, wrap, &extent->across));
   PetscCall(SamGridMeasureZones(s->grid, solution->pressure, 0.5, wrap, &extent->half_across));
   PetscCall(SamGridCountZones(s->grid, solution->pressure, wrap, &extent->zones));
-  PetscCall(SamGridGetSupport(s->grid, solution->pressure, wrap, first, n));
-  for (int k = 0; k < 2; k++) extent->half[k] = k >= s->grid->axes ? 0 : 0.5 * (PetscReal)n[k] * cell[k];
+  PetscCall(SamContactGetNumber(s->contact, "contact_half_x", &extent->half[0]));
+  PetscCall(SamContactGetNumber(s->contact, "contact_half_y", &extent->half[1]));
+  if (SamGridIsRow(s->grid)) extent->half[1] = 0;
   /* A row in contact from border to border has no width along x. */
-  extent->whole =
-    (SamGridIsRow(s->grid) && extent->zones == 1 ? (PetscReal)n[0] : extent->across) > (PetscReal)s->grid->fewest - 0.5
-      ? PETSC_TRUE
-      : PETSC_FALSE;
+  across        = SamGridIsRow(s->grid) && extent->zones == 1 ? 2 * extent->half[0] / s->grid->dx : extent->across;
+  extent->whole = across > (PetscReal)s->grid->fewest - 0.5 ? PETSC_TRUE : PETSC_FALSE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

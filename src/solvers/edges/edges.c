@@ -13,9 +13,12 @@
     4. Areas: the part of each cell of the band where the function is positive, by sub-cells. Where the guard rejects
        the reconstruction, the whole cell counts, minus SAM_EDGE_FACE for each of its faces to a cell outside, unless w
        is BLUNT there.
+    5. Extents: those of these parts. A whole cell moves them only if it reaches more than a cell beyond the parts that
+       are reconstructed: its error is half a cell, and single cells are rejected at smooth edges, too.
   Distances are in cells.
 */
 #include "edgesimpl.h"
+#include <petsam/private/grid.h>
 #include <math.h>
 
 #define BAND   2.5    /* distance of the core from the cells outside */
@@ -41,10 +44,14 @@ typedef enum { UNKNOWN, ROUGH, SMOOTH } Look;
 typedef struct {
   SamZone      zone;
   SamFitWindow core;
-  PetscInt    *slot; /* of each cell: its place among the cells of the band, -1 for the others */
-  PetscInt     band; /* number of cells in the band */
-  char        *look; /* of each cell of the band: a Look */
-  double      *fit;  /* of each cell of the band: its function, once it has a look */
+  PetscInt    *slot;      /* of each cell: its place among the cells of the band, -1 for the others */
+  PetscInt     band;      /* number of cells in the band */
+  char        *look;      /* of each cell of the band: a Look */
+  double      *fit;       /* of each cell of the band: its function, once it has a look */
+  PetscInt     middle[2]; /* cell about which the zone lies, over the border of a periodic grid, */
+  PetscInt     period[2]; /* whose period this is, in cells, else 0 */
+  /* how far the zone reaches from there to each side, in cells: by certain parts, and by cells that are counted */
+  double reach[2][SAM_FIT_SIDES];
 } Band;
 
 /*
@@ -154,6 +161,27 @@ static PetscBool IsBlunt(const SamZone *z, PetscInt i, PetscInt j)
   return farthest > 2 && z->w[SamZoneAt(z, i, j)] > BLUNT * behind;
 }
 
+/* Returns how far a cell is from the zone's middle along an axis; on a periodic grid on the nearer way. */
+static double PlaceOf(const Band *band, int axis, PetscInt i)
+{
+  const PetscInt period = band->period[axis], place = i - band->middle[axis];
+
+  return (double)(period ? (place + period + period / 2) % period - period / 2 : place);
+}
+
+/* Raises the zone's reach to that of a cell: by its function, or if that is NULL by its whole, less `face`. */
+static void Reach(Band *band, PetscInt i, PetscInt j, const double *fit, double face, double reach[SAM_FIT_SIDES])
+{
+  const double place[2] = {PlaceOf(band, 0, i), PlaceOf(band, 1, j)};
+
+  for (int side = 0; side < SAM_FIT_SIDES; side++) {
+    const double from = side % 2 ? -place[side / 2] : place[side / 2];
+
+    if (from + 0.5 > reach[side])
+      reach[side] = PetscMax(reach[side], from + (fit ? SamFitReach(fit, side) : 0.5 - face));
+  }
+}
+
 /* Adds a cell of the band to the sums and to the edge. */
 static void AddCell(Band *band, PetscInt i, PetscInt j, double sums[SUMS], SamEdge *edge)
 {
@@ -165,15 +193,16 @@ static void AddCell(Band *band, PetscInt i, PetscInt j, double sums[SUMS], SamEd
   const PetscBool inside = z->distance[k] > 0, good = IsSmoothAbout(band, i, j);
   const double   *fit   = good ? band->fit + SAM_FIT_TERMS * (ptrdiff_t)band->slot[k] : NULL;
   PetscInt        faces = 0;
+  double          face;
 
   sums[CELLS] += inside ? 1 : 0;
   for (int n = 0; n < 4 && inside; n++)
     if (SamZoneHas(z, i + x[n], j + y[n]) && z->distance[SamZoneAt(z, i + x[n], j + y[n])] < 0) faces++;
+  face = faces && !good && !IsBlunt(z, i, j) ? SAM_EDGE_FACE : 0;
   sums[FACES] += (double)faces;
   sums[GOOD] += good ? (double)faces : 0;
-  sums[AREA] += good     ? SamFitPart(fit)
-                : inside ? 1 - (faces && !IsBlunt(z, i, j) ? SAM_EDGE_FACE * (double)faces : 0)
-                         : 0;
+  sums[AREA] += good ? SamFitPart(fit) : inside ? 1 - face * (double)faces : 0;
+  if (good || inside) Reach(band, i, j, fit, face, band->reach[good ? 0 : 1]);
   if (!good) return;
   edge->corrected_cell[edge->corrected] = (j - grid->row_start) * grid->nx + i;
   edge->corrected_w[edge->corrected++]  = fit[0];
@@ -187,10 +216,12 @@ static void AddRow(Band *band, PetscInt j, double sums[SUMS], SamEdge *edge)
   PetscInt        whole = 0; /* cells of the zone beyond the band */
 
   for (PetscInt i = 0; i < band->zone.grid->nx; i++)
-    if (band->slot[first + i] < 0)
-      whole += band->zone.distance[first + i] > 0;
-    else
+    if (band->slot[first + i] >= 0) {
       AddCell(band, i, j, sums, edge);
+    } else if (band->zone.distance[first + i] > 0) {
+      whole++;
+      Reach(band, i, j, NULL, 0, band->reach[0]);
+    }
   sums[CELLS] += (double)whole;
   sums[AREA] += (double)whole;
 }
@@ -256,6 +287,42 @@ static PetscErrorCode FindBand(Band *band)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Finds the middle of the zone, from which its reach counts. Collective. */
+static PetscErrorCode FindMiddle(Band *band, PetscBool periodic, Vec w)
+{
+  const SamGrid  grid     = band->zone.grid;
+  const PetscInt count[2] = {grid->nx, grid->ny};
+  PetscInt       first[2], n[2];
+
+  PetscFunctionBegin;
+  PetscCall(SamGridGetSupport(grid, w, periodic, first, n));
+  for (int k = 0; k < 2; k++) {
+    band->middle[k] = first[k] + n[k] / 2;
+    band->period[k] = periodic ? count[k] : 0;
+  }
+  for (int side = 0; side < SAM_FIT_SIDES; side++) band->reach[0][side] = band->reach[1][side] = -INFINITY;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Computes half of the zone's extents from its reach on all ranks. Collective. */
+static PetscErrorCode FindExtent(Band *band, PetscReal half[2])
+{
+  const SamGrid   grid    = band->zone.grid;
+  const PetscReal cell[2] = {grid->dx, grid->dy};
+  double          far[SAM_FIT_SIDES];
+
+  PetscFunctionBegin;
+  PetscCall(SamMax(grid->comm, 2 * SAM_FIT_SIDES, band->reach[0]));
+  for (int side = 0; side < SAM_FIT_SIDES; side++)
+    far[side] = band->reach[1][side] > band->reach[0][side] + 1 ? band->reach[1][side] : band->reach[0][side];
+  for (int k = 0; k < 2; k++) {
+    const double extent = PetscMax(far[2 * k] + far[2 * k + 1], 0);
+
+    half[k] = 0.5 * (PetscReal)PetscMin(extent, (double)(k ? grid->ny : grid->nx)) * cell[k];
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode Destroy(Band *band)
 {
   PetscFunctionBegin;
@@ -276,6 +343,7 @@ PetscErrorCode SamEdgeReconstruct(SamGrid grid, PetscBool periodic, Vec w, SamEd
   PetscFunctionBegin;
   PetscCall(SamZoneCreate(grid, periodic, w, HALO, BAND, &band.zone));
   PetscCall(FindBand(&band));
+  PetscCall(FindMiddle(&band, periodic, w));
   *edge = (SamEdge){.count = 0};
   PetscCall(Allocate(edge, band.band, band.band));
   for (PetscInt j = 0; j < grid->rows; j++) {
@@ -285,6 +353,7 @@ PetscErrorCode SamEdgeReconstruct(SamGrid grid, PetscBool periodic, Vec w, SamEd
     AddRow(&band, grid->row_start + j, row, edge);
     SamAddAll(SUMS, totals, row);
   }
+  PetscCall(FindExtent(&band, edge->half));
   PetscCall(Destroy(&band));
   PetscCall(Allocate(edge, edge->count, edge->corrected));
   PetscCall(SamSumTotals(grid->comm, SUMS, totals, sums));

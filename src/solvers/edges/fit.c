@@ -201,6 +201,33 @@ SAM_VECTORIZED static double SumParts(const double *restrict fit, double slope)
   return sum;
 }
 
+/* Returns how far the function is positive in the cell along x, by rows of sub-cells. */
+static double ReachAlong(const double fit[TERMS])
+{
+  double most = -INFINITY;
+
+  for (int b = 0; b < SUB; b++) {
+    const double y = (b + 0.5) / SUB - 0.5, middle = SamFitAt(fit, 0, y), slope = fit[1] + fit[4] * y;
+    const double square = slope * slope - 4 * middle * fit[3];
+    double       x      = -INFINITY;
+
+    if (SamFitAt(fit, 0.5, y) > 0)
+      x = 0.5;
+    else if (slope < 0 && square >= 0)
+      x = PetscMin(2 * middle / (sqrt(square) - slope), 0.5);
+    if (x >= -0.5) most = PetscMax(most, x);
+  }
+  return most;
+}
+
+double SamFitReach(const double f[TERMS], int side)
+{
+  const double sign = side % 2 ? -1 : 1;
+
+  if (side < 2) return ReachAlong((const double[TERMS]){f[0], sign * f[1], f[2], f[3], sign * f[4], f[5]});
+  return ReachAlong((const double[TERMS]){f[0], sign * f[2], f[1], f[5], sign * f[4], f[3]});
+}
+
 /* Returns the part of a cell of a single row that lies on the positive side of its function's root. */
 static double LinePart(const double fit[TERMS])
 {
