@@ -88,6 +88,16 @@ def test_options_of_a_group_become_a_table():
     )
 
 
+def test_options_of_both_bodies_that_are_alike_have_one_row():
+    texts = {"-body1_e": "E (Pa) of body 1", "-body2_e": "E (Pa) of body 2", "-gap_r1": "one", "-gap_r2": "other"}
+    lines = reference.table([Option(name, "<number>", text, "0", []) for name, text in texts.items()]).splitlines()
+    assert lines[2:] == [
+        "| `-body1_e`, `-body2_e`: `<number>` | E (Pa) | 0 |",
+        "| `-gap_r1 <number>` | one | 0 |",
+        "| `-gap_r2 <number>` | other | 0 |",
+    ]
+
+
 def test_units_are_declared_once_for_scripts():
     options = {
         "A": [Option("-a", "", "", None, [], "m"), Option("-slope", "", "", None, [], "1")],
