@@ -41,12 +41,33 @@ def split_text(option):
 
 
 def table(options):
+    """Returns the table of options; one of body 2 that is as that of body 1 is in its row."""
     lines = ["| option | meaning | default |", "| --- | --- | --- |"]
+    known = {option.name: option for option in options}
     for option in options:
+        if alike(known.get(of_body(option.name, 2, 1)), option):
+            continue
         meaning, default = (words.replace("|", "\\|") for words in split_text(option))
-        words = f"{option.name} {option.argument}".strip()
-        lines.append(f"| `{words}` | {meaning} | {default} |")
+        name = f"`{f'{option.name} {option.argument}'.strip()}`"
+        other = known.get(of_body(option.name, 1, 2))
+        if alike(other, option):
+            name = f"`{option.name}`, `{other.name}`: `{option.argument}`"
+            meaning = re.sub(r" of body 1\b(?!')", "", meaning).replace("body 1", "the body")
+        lines.append(f"| {name} | {meaning} | {default} |")
     return "\n".join(lines)
+
+
+def of_body(name, one, other):
+    """Returns the name of the option of the other body."""
+    return re.sub(rf"(?<=body){one}(?!\d)|{one}$", str(other), name)
+
+
+def alike(one, other):
+    """True if two options of different bodies have the same argument, meaning and default."""
+    if one is None or one.name == other.name or one.argument != other.argument:
+        return False
+    texts = [[re.sub(r"body [12]", "body", words) for words in split_text(option)] for option in (one, other)]
+    return texts[0] == texts[1]
 
 
 def fill(text, groups):
@@ -77,8 +98,8 @@ def shown(value, size):
 
 
 def materials(described):
-    """Returns the table of materials for the manual."""
-    heads = ["material", "other names", *(head for _, head, _ in COLUMNS), "fatigue", "source"]
+    """Returns the table of materials for the manual, without the sources."""
+    heads = ["material", "other names", *(head for _, head, _ in COLUMNS), "fatigue"]
     lines = ["| " + " | ".join(heads) + " |", "|" + " --- |" * len(heads)]
     for material, found in constants_of(described):
         fatigue = ", ".join(
@@ -87,7 +108,7 @@ def materials(described):
             if found[name] is not None
         )
         cells = [f"`{material['name']}`", material["aliases"], *(shown(found[name], size) for name, _, size in COLUMNS)]
-        lines.append("| " + " | ".join([*cells, fatigue, material["source"]]) + " |")
+        lines.append("| " + " | ".join([*cells, fatigue]) + " |")
     return "<!-- materials -->\n" + "\n".join(lines) + "\n<!-- end -->"
 
 

@@ -62,6 +62,7 @@ PARTS = (
             "examples/README.md",
             "examples/manual/GALLERY.md",
             "examples/manual/RESULTS.md",
+            "examples/manual/ERRORS.md",
             "examples/manual/PICTURES.md",
             "examples/study/README.md",
             "examples/manual/LARGE.md",
@@ -77,6 +78,8 @@ PARTS = (
         "Loads",
         (
             "examples/manual/LOADS.md",
+            "examples/manual/CHECKPOINTS.md",
+            "examples/manual/HEAT.md",
             "examples/manual/MEASUREMENTS.md",
             "examples/fretting-loop/README.md",
             "examples/pad/README.md",

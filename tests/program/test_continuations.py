@@ -92,7 +92,7 @@ def test_another_gap_is_refused(stopped, petsam):
 
 # ---------------------------------------------------------------- in Python
 
-MANUAL = (ROOT / "examples/manual/LOADS.md").read_text()
+MANUAL = (ROOT / "examples/manual/CHECKPOINTS.md").read_text()
 SNIPPET = re.search(r"### Several ways from one state\n.*?```python\n(.*?)```", MANUAL, re.S).group(1)
 
 

@@ -122,7 +122,7 @@ def test_four_commands_lead_from_the_sources_to_a_plotted_loop(tree):
 
 
 def test_run_with_a_time_limit_goes_on_from_its_checkpoint(tree):
-    first, again = blocks("examples/manual/LOADS.md", "Checkpoints")
+    first, again = blocks("examples/manual/CHECKPOINTS.md", "Checkpoints")
     assert first.endswith("-max_walltime 0:01") and again.endswith("-max_walltime 10:00 -restart build/run/state.h5")
     assert again.startswith(first.replace("0:01", "10:00"))
     shell(first.replace(" -grid_n 256", " -grid_n 64").replace("0:01", "0.1"), tree, check=75)
