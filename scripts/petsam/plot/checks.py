@@ -1,4 +1,4 @@
-"""The verdict of a report: the check of all steps, the accuracy asked for, and warnings beside them."""
+"""The verdict of a report: the check of all steps, the required accuracy, and warnings beside them."""
 
 import math
 
@@ -78,7 +78,7 @@ def asked(results):
 
 
 def _too_large(results):
-    """The numbers whose error is unknown or above the accuracy asked for, above LARGE without one, and this limit. The
+    """The numbers whose error is unknown or above the required accuracy, above LARGE without one, and this limit. The
     worst is the first."""
     allowed, names = asked(results) or (LARGE, [])
     some = [(name, one) for name, one in results.errors.items() if not names or name in names]
@@ -94,9 +94,9 @@ def _error(name, one):
 
 
 def _doubt(results):
-    """Returns why the numbers are not as accurate as asked for, or as usual; empty if they are."""
+    """Returns why the numbers are not as accurate as required, or as usual; empty if they are."""
     large, allowed = _too_large(results)
-    wanted = f"the {100.0 * allowed:.3g} % asked for"
+    wanted = f"the required {100.0 * allowed:.3g} %"
     if not asked(results):
         return f"Not accurate: {_error(*large[0])}" if large else ""
     if large:

@@ -55,9 +55,11 @@ def _read(results, index, names, whole):
     masked = [name for name in names if name in OF_CONTACT or name.startswith(TRACTIONS)]
     if masked and "state" in results.fields:
         is_open = results.field("state", index, **part) == OPEN
-        for name in masked:  # adhesion pulls where the surfaces do not touch, too
-            nothing = is_open if name in OF_CONTACT else is_open & (data[name] == 0.0)
-            data[name] = np.where(nothing, np.nan, data[name])
+        for name in masked:
+            if name in OF_CONTACT:
+                data[name] = np.where(is_open, np.nan, data[name])
+            else:  # adhesion pulls where the surfaces do not touch, too; tables have the zeros
+                data[name] = np.ma.masked_where(is_open & (data[name] == 0.0), data[name])
     edges = extent(results.x[columns], results.y[rows], stride=stride)
     if "state" in names and results.has(VELOCITY):
         data["arrows"] = _arrows(results, index, **part)
@@ -178,7 +180,9 @@ def _draw(panel, one, name, shown, layout, length):
     """One map and its colour bar; shown is Colours, or (colour map, limits, words) of flags."""
     edges = [length * value for value in one["extent"]]
     if isinstance(shown, colours.Colours):
-        image = field(panel, shown.factor * one[name], edges, color_map=shown.color_map, norm=shown.norm)
+        # a product of masked numbers would lose those under the mask, which tables have
+        values = np.ma.array(shown.factor * np.ma.getdata(one[name]), mask=np.ma.getmask(one[name]))
+        image = field(panel, values, edges, color_map=shown.color_map, norm=shown.norm)
         image.cmap = image.cmap.with_extremes(bad=STATES[OPEN][1], under=image.cmap(0.0))
         drawn = bar(panel, image, shown.text(one["symbols"][name]), layout.height, extend=shown.extend)
         drawn.ax.yaxis.label.set_fontsize(8 if layout.height < 1.2 else 9)

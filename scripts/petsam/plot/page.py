@@ -21,6 +21,7 @@ SVG = 90000  # bytes of a picture up to which it is drawn by lines
 DPI = 150  # pixels per inch of the others
 SHOWN = 96  # of an inch of a picture on the page
 LONG = 300  # characters of a text of a file
+WORD = 12  # characters of a name that is not broken
 DRAWING = {"svg.hashsalt": "petsam"}  # the same names in each SVG
 NOTHING = {"Creator": None, "Date": None, "Format": None, "Type": None}  # of the description in an SVG
 
@@ -63,6 +64,8 @@ CSS = """
 .petsam .choice { display: flex; flex-wrap: wrap; gap: 0.3em 1em; align-items: center; margin: 0.6em 0; }
 .petsam .choice input { flex: 1 1 14em; max-width: 40em; min-height: 2em; accent-color: var(--tint); }
 .petsam .frame { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 18em), 1fr)); gap: 1em; }
+.petsam .frame:has(> :nth-child(4):last-child) {
+  grid-template-columns: repeat(auto-fit, minmax(min(100%, 18em), 26em)); max-width: 54em; }
 .petsam .frame[hidden] { display: none; }
 .petsam .frame figure { margin: 0; }
 """
@@ -82,14 +85,14 @@ main { max-width: 76em; margin: 0 auto; padding: 0.8em clamp(0.8em, 3vw, 2em) 3e
   .petsam { font-size: 10pt; }
   main { max-width: none; padding: 0; }
   .petsam h2, .petsam caption { break-after: avoid; }
-  .petsam figure, .petsam tr, .petsam dl, .petsam .verdict { break-inside: avoid; }
+  .petsam figure, .petsam .frame, .petsam tr, .petsam dl, .petsam .verdict { break-inside: avoid; }
   .petsam thead { display: table-header-group; }
   .petsam .wide { overflow: visible; }
   .petsam .wide img { width: auto; max-width: 100%; }
   .petsam table { font-size: 8pt; }
   .petsam th, .petsam td.number, .petsam td.error { white-space: normal; padding-right: 0.6em; }
   .petsam .frame { grid-template-columns: repeat(3, 1fr); }
-  .petsam .frame:has(> :nth-child(4)) { grid-template-columns: repeat(2, 1fr); }
+  .petsam .frame:has(> :nth-child(4):last-child) { grid-template-columns: repeat(2, 1fr); max-width: 120mm; }
   .petsam .page { break-before: page; }
   .petsam .many { page: many; }
   .petsam tbody th { position: static; }
@@ -175,8 +178,8 @@ def quantity(value, unit="", digits=6, beside=0.0):
 
 
 def broken(name):
-    """A name that may be broken after its underscores."""
-    return Html(text(name).replace("_", "_<wbr>"))
+    """A name that may be broken after its underscores where it is long."""
+    return Html(text(name).replace("_", "_<wbr>")) if len(name) > WORD else text(name)
 
 
 def table(caption, heads, rows, long=()):
