@@ -889,7 +889,15 @@ def test_a_result_is_a_table_and_a_picture(tmp_path):
     assert names == ["cycle", "friction", "friction_sd", "compliance", "compliance_sd", "energy", "energy_sd"]
     assert found.state == "known" and found.identifiable and abs(found.friction - MU) < 3 * found.friction_sd
     figure = package.plot.fit(found)
-    assert len(figure.axes) == 2 and len(figure.axes[0].lines) == 4
+    first, last, over = figure.axes  # each loop in a panel of its own, with one scale
+    assert [panel.get_title() for panel in (first, last)] == ["first cycle", "last cycle"]
+    assert first.get_xlim() == last.get_xlim() and first.get_ylim() == last.get_ylim()
+    for panel, one in ((first, found.each[0]), (last, found.each[-1])):
+        measured, fitted = panel.lines
+        assert np.allclose(measured.get_ydata(), one.loops[0].force) and measured.get_label() == "measured"
+        assert np.allclose(fitted.get_ydata(), one.curves[0][1]) and fitted.get_zorder() > measured.get_zorder()
+    assert over.get_ylabel() == "friction" and over.get_xlabel() == "cycle"
+    assert np.allclose(over.lines[-1].get_ydata(), [one.friction for one in found.each])
 
 
 # ---------------------------------------------------------------- scars

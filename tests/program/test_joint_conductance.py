@@ -359,6 +359,14 @@ def test_calculix_takes_the_conductance_from_the_card(tmp_path, given, lam, high
     assert step == pytest.approx(heat / h, rel=1e-4)
 
 
+def test_the_picture_of_an_interface_has_its_conductance():
+    one = found()
+    *_, axes = petsam.plot.interface(one).axes
+    assert axes.get_ylabel() == "contact conductance, W/(m² K)" and axes.get_xlabel() == "nominal pressure, MPa"
+    assert np.allclose(axes.containers[0].lines[0].get_ydata(), one.h)
+    assert len(petsam.plot.interface(found(lam=None)).axes) == 2
+
+
 def test_a_picture_has_the_conductances_of_several_interfaces():
     several = [found(), found(gas=AIR), found(gas=AIR, film=1e-7)]
     axes = petsam.plot.conductance(*several).axes[0]

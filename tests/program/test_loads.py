@@ -285,6 +285,18 @@ def test_pressure_of_the_analysis_is_drawn_beside_petsams(tool, solve, tmp_path)
     assert "has no CPRESS" in tool(*words, "--compare", path, check=3)[1]
 
 
+def test_the_picture_has_the_moments(dovetail, files):
+    name = list(FRAMES)[0]
+    found = petsam.loads.history(petsam.loads.read(files[0], deck=files[1]), FRAMES[name], patch=name)
+    panels = petsam.plot.loads(found).axes
+    [moments] = [panel for panel in panels if panel.get_ylabel().startswith("moment, ")]
+    assert [line.get_label() for line in moments.lines] == ["$M_x$", "$M_y$", "$M_z$"]
+    unit = {"mN·m": 1e3, "N·m": 1.0}[moments.get_ylabel().partition(", ")[2]]
+    for line, values in zip(moments.lines, found.loads[:, 3:].T):
+        assert np.allclose(line.get_ydata(), unit * values) and np.allclose(line.get_xdata(), found.times)
+    assert len(panels) == 5
+
+
 # ---------------------------------------------------------------- remarks
 
 

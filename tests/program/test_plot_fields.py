@@ -6,7 +6,7 @@ import pytest
 from matplotlib.colors import LogNorm, Normalize, SymLogNorm
 
 import petsam
-from petsam.plot import colours, crossings, fields, series, style
+from petsam.plot import colours, crossings, fields, outlines, series, style
 from petsam.plot.style import plt
 from support import ball, slide_limit
 
@@ -267,16 +267,40 @@ def test_what_is_very_long_is_stretched_and_says_so(width, height, stretch):
     assert layout.remark == said
 
 
-def test_the_points_of_an_edge_do_not_hide_the_map(edges):
+def test_edges_are_lines_through_the_points_of_the_file(edges):
     with petsam.open(edges) as results:
-        assert len(results.edge("contact_edge")) > 20
+        points = results.edge("contact_edge")
+        assert len(points) > 20
+        for axes in fields.maps([(results, results.of_last())]).axes[:2]:
+            drawn = [line for line in axes.lines if line.get_gid() == "contact_edge"]
+            assert drawn and all(line.get_marker() == "None" and line.get_linestyle() == "-" for line in drawn)
+            x, y = np.concatenate([line.get_xydata() for line in drawn]).T
+            assert {*np.round(x, 6)} <= {*np.round(1e3 * points[:, 0], 6)} and np.ptp(y) > 0.0
+
+
+def test_points_of_edges_are_joined_in_their_order():
+    turn = np.linspace(0.0, 2.0 * np.pi, 60, endpoint=False)
+    ring = np.stack([np.cos(turn), np.sin(turn)], axis=1)
+    cell = 2.0 * np.pi / 60
+    mixed = ring[np.random.default_rng(1).permutation(60)]
+    [line] = outlines.lines(mixed, cell)
+    assert len(line) == 61 and np.array_equal(line[0], line[-1])  # closed
+    assert np.linalg.norm(np.diff(line, axis=0), axis=1).max() < 1.01 * cell
+    open_ring = mixed[np.abs(mixed[:, 1]) < 0.8]  # two arcs
+    parts = outlines.lines(open_ring, cell)
+    assert sum(map(len, parts)) == len(open_ring) and [len(part) for part in parts] == [len(open_ring) // 2] * 2
+    assert all(np.ptp(part[:, 0]) < 0.5 for part in parts)
+    assert outlines.lines(ring[:1], cell) == outlines.lines(ring[:0], cell) == []
+
+
+def test_the_open_surface_has_one_colour_in_all_maps(path):
+    with petsam.open(path) as results:
         figure = fields.maps([(results, results.of_last())])
-        panels, _ = boxes(figure)
-        for axes, box in zip(figure.axes, panels):
-            assert axes.lines
-            for line in axes.lines:
-                area = len(line.get_xdata()) * (line.get_markersize() / 72.0 * figure.dpi) ** 2
-                assert line.get_markersize() <= 1.2 and area < 1.5 * fields.HIDDEN * box.width * box.height
+        corners = [panel.images[0].make_image(None, unsampled=True)[0][0, 0] for panel in figure.axes if panel.images]
+        state = results.field("state", results.of_last())
+        pressure = figure.axes[0].images[0].get_array()
+    assert len(corners) == 4 and len({tuple(one) for one in corners}) == 1
+    assert pressure.mask.any() and pressure.count() == np.count_nonzero(state)
 
 
 # ---------------------------------------------------------------- profiles, scalars

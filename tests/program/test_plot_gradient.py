@@ -52,7 +52,7 @@ def test_maps_are_changes_by_a_patch_in_colours_about_zero(results):
         )
         assert drawn.norm.vmin == -drawn.norm.vmax and drawn.get_cmap().name == "RdBu_r"
         assert "100 µm x 100 µm" in panel.get_title("left") and panel.get_title("left").startswith("energy: ")
-        assert len(panel.collections) == 2  # the edges of contact and of stick
+        assert {line.get_gid() for line in panel.lines} == {"contact_edge", "stick_edge"}
     part = next(panel.images[0] for panel in gradients.gradient([results]).axes if panel.images)
     assert 0 < part.get_array().size < 0.8 * found.gap.size
 

@@ -147,16 +147,7 @@ def test_command_and_call_write_the_same(draw, strokes, tmp_path):
 
 
 def test_parts_stand_in_the_order_of_a_report(page):
-    order = [
-        "Check",
-        "Warnings",
-        "Numbers of the last step",
-        "Saved steps",
-        "Pictures",
-        "History",
-        "Inputs",
-        "Citation",
-    ]
+    order = ["Check", "Numbers of the last step", "Saved steps", "Pictures", "History", "Inputs", "Citation"]
     assert page[0].titles == order
 
 
@@ -202,6 +193,79 @@ def test_large_errors_are_warned_of(copy, tmp_path):
     petsam.open(copy).report("w.html")
     said = read(tmp_path / "w.html")[0].said()
     assert f"{names[0]} has an error of 31 % by the" in said and f"the error of {names[1]} is unknown" in said
+    assert "Passed" not in said and "Not accurate: " in said
+
+
+def verdict_of(path, options="", errors=(), warnings=()):
+    """The class and the words of the verdict of a file whose errors, first numbers first, are changed."""
+    with h5py.File(path, "r+") as file:
+        file.attrs["options"] = f"{file.attrs['options']} {options}"
+        file["errors/error"][:] = 0.001
+        for k, error in enumerate(errors):
+            file["errors/error"][k] = error
+        names = [name.decode() for name in file["errors/name"][: len(errors)]]
+    results = petsam.open(path)
+    results.warnings += warnings
+    results.report("v.html")
+    found, _ = read(path.parent / "v.html")
+    [kind] = [of["class"].split()[1] for of in found.all("div") if of.get("class", "").startswith("verdict ")]
+    return kind, found.said(), names
+
+
+@pytest.mark.usefixtures("undrawn")
+@pytest.mark.parametrize(
+    "options, errors, kind, says",
+    [
+        (
+            "-accuracy 1%",
+            [0.054],
+            "warning",
+            "Accuracy not reached: {0} has an error of 5.4 % by the {1}, above the required 1 %",
+        ),
+        ("-accuracy 1e-2", [0.02, 0.03], "warning", "above it, too: {0} 2 %"),
+        ("-grid auto", [0.02], "warning", "Accuracy not reached: {0} has an error of 2 %"),
+        ("-accuracy 1%", [math.nan], "warning", "Accuracy not reached: the error of {0} is unknown"),
+        ("-accuracy 1% -accuracy_of stick_area", [0.02], "fine", "The accuracy of 1 % is reached"),
+        ("-accuracy 3%", [0.02], "fine", "The accuracy of 3 % is reached: the maximum error is 2 %, of {0}."),
+        ("", [0.054], "warning", "Not accurate: {0} has an error of 5.4 % by the {1}."),
+        ("", [0.02], "fine", "The maximum error is 2 %, of {0}."),
+    ],
+)
+def test_the_verdict_follows_the_check_and_the_accuracy(copy, options, errors, kind, says):
+    cause = next(iter(petsam.open(copy).errors.values())).cause
+    found, said, names = verdict_of(copy, options, errors)
+    assert found == kind and says.format(names[0], cause) in said
+    assert ("Passed: " in said) == (kind == "fine") and "the check agrees. Exit code 0." in said.replace("All", "all")
+
+
+@pytest.mark.usefixtures("undrawn")
+def test_warnings_stand_in_the_verdict(copy):
+    found, said, _ = verdict_of(copy, warnings=["the contact is small <b>"])
+    assert found == "warning" and "Passed with 1 warning: " in said and "the contact is small <b>" in said
+
+
+def test_the_head_has_bodies_loads_friction_and_units(page):
+    places = [data for places, data in page[0].texts if places[-1:] == ("dt",)]
+    head = page[1].partition("<dl>")[2].partition("</dl>")[0]
+    shown = re.sub("<.*?>", "", re.sub("</dd>", "\n", head))
+    assert {"Bodies", "Gap", "Friction", "Loads", "Units"} <= set(places)
+    assert "E 72 GPa" in shown and "SI with prefixes" in shown and "Gapsphere" in shown
+    [ends] = re.findall(r'load_tx <data value="(.*?)">.*? to <data value="(.*?)">', head)
+    low, high = map(float, ends)
+    assert (low, high) == (-AMPLITUDE, AMPLITUDE)
+
+
+def test_dark_screens_and_paper_have_their_own_colours(page):
+    dark = page[1].partition("@media screen and (prefers-color-scheme: dark)")[2].partition("@media print")[0]
+    light = page[1].partition(".petsam {")[2].partition("}")[0]
+    assert set(re.findall(r"--\w+(?=:)", light)) == set(re.findall(r"--\w+(?=:)", dark)) > {"--ink", "--paper"}
+
+
+def test_no_picture_is_twice_in_a_page(page):
+    sources = [one["src"] for one in page[0].all("img")]
+    assert len(sources) == len(set(sources))
+    captions = [data for places, data in page[0].texts if places[-1:] == ("figcaption",)]
+    assert "Fields over the surface" not in captions  # the slider shows them
 
 
 def test_the_check_has_the_largest_residuals_and_the_verdict(page, strokes):
@@ -248,7 +312,7 @@ def test_the_slider_has_a_picture_for_each_step_that_it_shows(page):
     whens = [one["data-when"] for one in shown]
     assert len(set(whens)) == SHOWN and whens[0].startswith("step 1,") and whens[-1] == "step 48, t = 3 s"
     maps = [one["alt"] for one in page[0].all("img") if "of step" in one["alt"]]
-    assert len(maps) == 3 * SHOWN and [alt.split()[0] for alt in maps[:3]] == ["pressure", "shear", "slip"]
+    assert len(maps) == 4 * SHOWN and [alt.split()[0] for alt in maps[:4]] == ["pressure", "shear", "slip", "state"]
 
 
 def test_a_slider_that_would_be_too_large_has_fewer_steps(strokes):
@@ -286,7 +350,9 @@ def test_a_single_step_has_no_slider(solve, tmp_path):
     one = solve(dict(CASE, load_tx=AMPLITUDE)).path
     petsam.open(one).report(tmp_path / "one.html")
     found, _ = read(tmp_path / "one.html")
-    assert not found.all("input") and len(found.all("div", **{"class": "frame"})) == 1
+    assert not found.all("input") and not found.all("div", **{"class": "frame"})
+    captions = [data for places, data in found.texts if places[-1:] == ("figcaption",)]
+    assert captions == ["Fields over the surface", "Fields along x and y"]  # each once
     assert "-errors companion" in found.said()  # which would have given errors
 
 

@@ -6,9 +6,10 @@ them have are in keywords.py.
 fields and crossings draw fields over the surface and along x and y, gradients derivatives in each cell, series scalars
 over time or over one another, loops and wear cycles and scars, bodies stresses, tables and planes studies. Applications
 bring their own pictures, which have their names here, too: petsam.plot.surface(map). kinds lists the pictures that suit
-a file; reports makes a page of a file or of what an application has found, with the tables of sheets, the slider of
-frames and the elements of page. colours chooses the colours of maps, symbols what known quantities are called, units
-the prefixes; style has the look of all, saving writes files. command is petsam-plot, with arguments and uses.
+a file; reports makes a page of a file or of what an application has found, with the terms of heads, the verdict of
+checks, the tables of sheets, the slider of frames and the elements of page. outlines draws the edges that a file has,
+colours chooses the colours of maps, symbols what known quantities are called, units the prefixes; style has the look of
+all, saving writes files. command is petsam-plot, with arguments and uses.
 """
 
 import importlib

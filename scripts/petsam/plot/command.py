@@ -197,6 +197,8 @@ def write_report(options, results):
     """The page of a file, with the pictures that are asked for."""
     reports.need(results[0], options.report)
     kinds = usable(options, results)
+    if not asked(options) and not uses.given(options):
+        kinds = reports.once(results[0], kinds)
     with plt.rc_context(STYLE), drawing(options, "report"):
         figures = {kind: draw(options, results, kind) for kind in kinds}
         reports.write(results[0], options.report, figures, options.dpi)

@@ -11,7 +11,7 @@ from matplotlib.colors import ListedColormap, Normalize
 
 from ..core.errors import Error
 from ..results.fields import DEPTHS, EDGES, OPEN, SLIP, STICK
-from . import colours, noise, symbols
+from . import colours, noise, outlines, symbols
 from .style import bar, extent, field, heading, need_few, plt, ticks
 from .units import label, largest, scale
 
@@ -26,6 +26,7 @@ VELOCITY = ("slip_velocity_x", "slip_velocity_y")  # arrows on the state
 ARROWS = 18  # along the longer side of a map at most
 LONGEST = 0.9  # length of the longest arrow over the distance between two
 OF_CONTACT = ("slip", "slip_x", "slip_y", "slip_velocity", *VELOCITY)  # exist in the contact only
+TRACTIONS = ("pressure", "shear", "power_density")  # beginnings of names of what is zero without contact
 STATES = {OPEN: ("open", "#f4f4f4"), STICK: ("stick", "#3b4cc0"), SLIP: ("slip", "#e9a03b")}
 PIXELS = 1200  # of a map in each direction: more cells than the eye and the paper hold
 WIDE = 2.0  # width over height from which maps stand below each other
@@ -34,7 +35,6 @@ ABREAST = 4  # maps of a snapshot side by side at most; more are drawn in two ro
 SIDE, LONG = 2.4, 7.0  # inches of a map: its height side by side, its width one below the other
 ONE = 5.0  # inches of the longer side of a map that is alone
 NARROW = 1.7  # inches of a map's width below which the numbers of x stand upright
-HIDDEN = 0.02  # maximum part of a map's area that the points of an edge cover
 
 
 def usual(results):
@@ -52,14 +52,20 @@ def _read(results, index, names, whole):
     stride = max(1, -(-max(rows.stop - rows.start, columns.stop - columns.start) // PIXELS))
     part = {"rows": rows, "columns": columns, "stride": stride}
     data = {name: results.quantity(name, index, **part) for name in names}
-    masked = [name for name in names if name in OF_CONTACT]
+    masked = [name for name in names if name in OF_CONTACT or name.startswith(TRACTIONS)]
     if masked and "state" in results.fields:
         is_open = results.field("state", index, **part) == OPEN
-        data.update({name: np.where(is_open, np.nan, data[name]) for name in masked})
+        for name in masked:
+            if name in OF_CONTACT:
+                data[name] = np.where(is_open, np.nan, data[name])
+            else:  # adhesion pulls where the surfaces do not touch, too; tables have the zeros
+                data[name] = np.ma.masked_where(is_open & (data[name] == 0.0), data[name])
     edges = extent(results.x[columns], results.y[rows], stride=stride)
     if "state" in names and results.has(VELOCITY):
         data["arrows"] = _arrows(results, index, **part)
-    return {**data, "extent": edges, "edges": [results.edge(name, index) for name in results.edges]}
+    cell = float(results.x[1] - results.x[0])
+    lines = {name: outlines.lines(results.edge(name, index), cell) for name in results.edges}
+    return {**data, "extent": edges, "edges": lines}
 
 
 def _arrows(results, index, rows, columns, stride):
@@ -119,7 +125,11 @@ class Layout:
             self.height = side / min(1.0, shown) if not alone else side / max(1.0, shown)
             self.height = min(self.height, 6.0)
             self.width = self.height * shown
-        self.pitch = (self.width + 1.5, self.height + (0.85 if self.stacked else 0.95))
+        # a map that is alone is as high as its figure lets it be, and has numbers and labels at both sides
+        self.pitch = (
+            self.width + (2.1 if alone and not self.stacked else 1.5),
+            self.height + (0.85 if self.stacked else 0.95),
+        )
 
     @property
     def size(self):
@@ -166,20 +176,14 @@ def _colours_of_state(results, name, values):
     return ListedColormap(tints), (-0.5, count - 0.5), texts
 
 
-def _edge_points(panel, points, length, layout, color):
-    """Points of an edge, so small that they do not hide the map."""
-    if not len(points):
-        return
-    size = min(1.2, np.sqrt(HIDDEN * layout.width * layout.height / len(points)) * 72.0)
-    panel.plot(*(length * points.T), ".", color=color, markersize=max(size, 0.25), markeredgewidth=0.0)
-
-
 def _draw(panel, one, name, shown, layout, length):
     """One map and its colour bar; shown is Colours, or (colour map, limits, words) of flags."""
     edges = [length * value for value in one["extent"]]
     if isinstance(shown, colours.Colours):
-        image = field(panel, shown.factor * one[name], edges, color_map=shown.color_map, norm=shown.norm)
-        image.cmap = image.cmap.with_extremes(bad="white", under=image.cmap(0.0))
+        # a product of masked numbers would lose those under the mask, which tables have
+        values = np.ma.array(shown.factor * np.ma.getdata(one[name]), mask=np.ma.getmask(one[name]))
+        image = field(panel, values, edges, color_map=shown.color_map, norm=shown.norm)
+        image.cmap = image.cmap.with_extremes(bad=STATES[OPEN][1], under=image.cmap(0.0))
         drawn = bar(panel, image, shown.text(one["symbols"][name]), layout.height, extend=shown.extend)
         drawn.ax.yaxis.label.set_fontsize(8 if layout.height < 1.2 else 9)
         if type(shown.norm) is not Normalize:
@@ -194,8 +198,8 @@ def _draw(panel, one, name, shown, layout, length):
     drawn.ax.tick_params(labelsize=8)
     if name == "state" and "arrows" in one:
         _draw_arrows(panel, length, *one["arrows"])
-    for points in one["edges"]:
-        _edge_points(panel, points, length, layout, "black" if not isinstance(shown, colours.Colours) else "0.85")
+    for edge, lines in one["edges"].items():
+        outlines.draw(panel, edge, lines, length)
     panel.set(xlim=edges[:2], ylim=edges[2:])
     layout.number(panel)
 

@@ -12,7 +12,8 @@ from . import colours, crossings, fields, looks, noise, page, symbols
 from .style import drawn
 
 STEPS = 20  # saved steps at most, chosen evenly
-FIELDS = 4  # beside each other at most
+FIELDS = 4  # beside each other at most, besides the state
+STATE = "state"
 BYTES = 1100000  # of all pictures of a slider at most
 DPI = 110  # pixels per inch
 WIDTH = 100.0  # mm of a map
@@ -54,7 +55,10 @@ def spans(results, indices, part):
     found = {name: _span(results, indices, name, part) for name in [*names, *results.depths]}
     tops = {name: max(-low, high) for name, (low, high) in found.items()}
     shown = [name for name, top in tops.items() if top > 0.0 and not noise.is_nothing(name, tops, [results])]
-    return {name: found[name] for name in (shown or names[:1])[:FIELDS]}
+    ranges = {name: found[name] for name in (shown or names[:1])[:FIELDS]}
+    if STATE in results.fields and not results.is_plane:
+        ranges[STATE] = (0.0, 1.0)  # of flags, whose colours need no range
+    return ranges
 
 
 @drawn()

@@ -8,7 +8,7 @@ import numpy as np
 
 from ..core.errors import Error
 from ..results.fields import OPEN, STICK
-from . import colours
+from . import colours, outlines
 from .fields import Layout
 from .style import bar, curve, extent, field, named, need_few, note, plt
 from .units import label, largest, number, plain, scale
@@ -16,7 +16,8 @@ from .units import label, largest, number, plain, scale
 GAP, FRICTION = 1e-6, 0.01  # m, 1: the changes of a patch
 PART = 0.01  # of the contact that a patch has at most
 MARGIN = 0.15  # about the cells that count, over their extent
-EDGES = ((lambda state: state != OPEN, "-"), (lambda state: state == STICK, "--"))  # of contact and of stick
+# of contact and of stick
+EDGES = {"contact_edge": (lambda state: state != OPEN, "-"), "stick_edge": (lambda state: state == STICK, "--")}
 LINE = {"color": "0.2", "linewidth": 0.6}
 PERCENTILE = 97.0  # of the cells, which the colours by the gap hold: the others are along the edges
 REMARK = "contact (line) and stick (dashed) of the last saved step"
@@ -71,6 +72,7 @@ def _read(results, one, whole):
     saved = "state" in results.fields and results.times.size
     state = results.field("state", -1, rows, columns) if saved else np.full((y.size, x.size), OPEN)
     edges = {} if results.is_plane else {"extent": extent(x, y)}
+    held = results.edges if saved and not results.is_plane else []
     factor, base = scale(one.unit, abs(one.value))
     about = f"{plain(one.name)}: {number(factor * one.value)} {base}".rstrip()
     about = f"{plain(results.label)}, {about}" if named([results]) else about
@@ -82,6 +84,7 @@ def _read(results, one, whole):
         "x": x,
         "y": y,
         "state": state,
+        "lines": {name: outlines.lines(results.edge(name), float(results.x[1] - results.x[0])) for name in held},
         "about": about,
         **edges,
     }
@@ -93,9 +96,11 @@ def _map(panel, one, values, layout, length, percentile):
     edges = [length * value for value in one["extent"]]
     image = field(panel, shown.factor * values, edges, color_map=shown.color_map, norm=shown.norm)
     bar(panel, image, shown.text("change"), layout.height, extend=shown.extend)
-    for inside, dash in EDGES:
+    for name, (inside, dash) in EDGES.items():
         cells = inside(one["state"]).astype(float)
-        if np.ptp(cells):
+        if one["lines"].get(name):
+            outlines.draw(panel, name, one["lines"][name], length)
+        elif np.ptp(cells):
             look = {"colors": LINE["color"], "linewidths": LINE["linewidth"], "linestyles": dash}
             panel.contour(length * one["x"], length * one["y"], cells, [0.5], **look)
     layout.number(panel)
@@ -107,7 +112,7 @@ def _curve(panel, one, values, length):
     factor, unit = scale(one["unit"], values)
     x = length * one["x"]
     panel.axhline(0.0, color="0.6", linewidth=0.8)
-    for inside, dash in EDGES:
+    for inside, dash in EDGES.values():
         for turn in np.flatnonzero(np.diff(inside(one["state"][0]).astype(int))):
             panel.axvline(0.5 * (x[turn] + x[turn + 1]), linestyle=dash, **LINE)
     panel.plot(x, factor * values[0], **curve(x.size, color="#0072b2"))

@@ -58,7 +58,7 @@ def adapt(figure, x_limits=None, y_limits=None, width=None):
 def _grids(panel):
     """Coordinates and values of maps and filled contours: x, y, (y, x)."""
     for image in panel.images:
-        values = np.ma.filled(np.ma.asarray(image.get_array(), dtype=float), np.nan)
+        values = np.ma.getdata(image.get_array()).astype(float)  # what has the colour of the open surface, too
         low_x, high_x, low_y, high_y = image.get_extent()
         rows, columns = values.shape[:2]
         across, up = (high_x - low_x) / columns, (high_y - low_y) / rows

@@ -21,24 +21,27 @@ SVG = 90000  # bytes of a picture up to which it is drawn by lines
 DPI = 150  # pixels per inch of the others
 SHOWN = 96  # of an inch of a picture on the page
 LONG = 300  # characters of a text of a file
+WORD = 12  # characters of a name that is not broken
 DRAWING = {"svg.hashsalt": "petsam"}  # the same names in each SVG
 NOTHING = {"Creator": None, "Date": None, "Format": None, "Type": None}  # of the description in an SVG
 
 CSS = """
-.petsam { color: #1a1a1a; background: #fff; font: 15px/1.5 system-ui, "DejaVu Sans", Arial, sans-serif; }
+.petsam { --ink: #1a1a1a; --paper: #fff; --pale: #444; --line: #ddd; --rule: #bbb; --code: #f5f5f5;
+  --bad: #b00020; --doubt: #d55e00; --good: #009e73; --tint: #0072b2;
+  color: var(--ink); background: var(--paper); font: 15px/1.5 system-ui, "DejaVu Sans", Arial, sans-serif; }
 .petsam h1 { font-size: 1.7em; line-height: 1.25; margin: 0.3em 0; overflow-wrap: anywhere; }
-.petsam h2 { font-size: 1.25em; margin: 1.8em 0 0.5em; border-bottom: 1px solid #bbb; }
+.petsam h2 { font-size: 1.25em; margin: 1.8em 0 0.5em; border-bottom: 1px solid var(--rule); }
 .petsam p, .petsam li, .petsam dd, .petsam figcaption, .petsam caption { overflow-wrap: anywhere; }
 .petsam .wide { overflow-x: auto; max-width: 100%; margin: 0.6em 0; }
-.petsam .wide:focus-visible, .petsam input:focus-visible { outline: 3px solid #0072b2; }
+.petsam .wide:focus-visible, .petsam input:focus-visible { outline: 3px solid var(--tint); }
 .petsam table { border-collapse: collapse; font-size: 0.92em; font-variant-numeric: tabular-nums; }
-.petsam caption { text-align: left; color: #444; padding: 0.2em 0; }
+.petsam caption { text-align: left; color: var(--pale); padding: 0.2em 0; }
 .petsam caption > span { display: block; position: sticky; left: 0; width: max-content; max-width: min(100%, 92vw); }
 .petsam data { white-space: nowrap; }
-.petsam th, .petsam td { padding: 0.2em 0.9em 0.2em 0; border-bottom: 1px solid #ddd; text-align: left;
+.petsam th, .petsam td { padding: 0.2em 0.9em 0.2em 0; border-bottom: 1px solid var(--line); text-align: left;
   vertical-align: top; background: none; }
 .petsam th { font-weight: 600; white-space: nowrap; }
-.petsam tbody th { position: sticky; left: 0; background: #fff; }
+.petsam tbody th { position: sticky; left: 0; background: var(--paper); }
 .petsam td.number { text-align: right; white-space: nowrap; }
 .petsam th.number { text-align: right; }
 .petsam thead th { vertical-align: bottom; }
@@ -47,35 +50,49 @@ CSS = """
 .petsam dl { display: grid; grid-template-columns: max-content 1fr; gap: 0.2em 1em; margin: 0.8em 0; }
 .petsam dt { font-weight: 600; }
 .petsam dd { margin: 0; }
-.petsam pre { white-space: pre-wrap; overflow-wrap: anywhere; background: #f5f5f5; padding: 0.7em; margin: 0.5em 0; }
+.petsam pre { white-space: pre-wrap; overflow-wrap: anywhere; background: var(--code); padding: 0.7em;
+  margin: 0.5em 0; }
 .petsam figure { margin: 1em 0; }
 .petsam figure img { max-width: 100%; height: auto; display: block; }
 .petsam .wide img { max-width: none; width: max(100%, 40em); }
-.petsam figcaption { color: #444; font-size: 0.92em; }
-.petsam .warning { border-left: 4px solid #d55e00; padding-left: 0.7em; }
-.petsam .fine { border-left: 4px solid #009e73; padding-left: 0.7em; }
+.petsam figcaption { color: var(--pale); font-size: 0.92em; }
+.petsam .verdict { border-left: 4px solid var(--good); padding-left: 0.7em; margin: 0.8em 0; }
+.petsam .verdict.warning { border-left-color: var(--doubt); }
+.petsam .verdict.failed { border-left-color: var(--bad); }
+.petsam .verdict > * { margin: 0.2em 0; }
+.petsam .verdict > ul { padding-left: 1.2em; }
 .petsam .choice { display: flex; flex-wrap: wrap; gap: 0.3em 1em; align-items: center; margin: 0.6em 0; }
-.petsam .choice input { flex: 1 1 14em; max-width: 40em; min-height: 2em; accent-color: #0072b2; }
+.petsam .choice input { flex: 1 1 14em; max-width: 40em; min-height: 2em; accent-color: var(--tint); }
 .petsam .frame { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 18em), 1fr)); gap: 1em; }
+.petsam .frame:has(> :nth-child(4):last-child) {
+  grid-template-columns: repeat(auto-fit, minmax(min(100%, 18em), 26em)); max-width: 54em; }
 .petsam .frame[hidden] { display: none; }
 .petsam .frame figure { margin: 0; }
 """
 PAPER = """
 body { margin: 0; background: #fff; }
 main { max-width: 76em; margin: 0 auto; padding: 0.8em clamp(0.8em, 3vw, 2em) 3em; }
+@media screen and (prefers-color-scheme: dark) {
+  html { color-scheme: dark; }
+  body { background: #16181b; }
+  .petsam { --ink: #e4e4e4; --paper: #16181b; --pale: #b4b4b4; --line: #3a3d41; --rule: #5a5d61; --code: #22252a;
+    --bad: #ff6b7d; --doubt: #f08c3a; --good: #2fc79a; --tint: #5ab4f0; }
+  .petsam figure img { background: #fff; border-radius: 4px; }
+}
 @media print {
   @page { margin: 16mm 14mm; }
   @page many { size: landscape; }
   .petsam { font-size: 10pt; }
   main { max-width: none; padding: 0; }
   .petsam h2, .petsam caption { break-after: avoid; }
-  .petsam figure, .petsam tr, .petsam dl, .petsam .verdict { break-inside: avoid; }
+  .petsam figure, .petsam .frame, .petsam tr, .petsam dl, .petsam .verdict { break-inside: avoid; }
   .petsam thead { display: table-header-group; }
   .petsam .wide { overflow: visible; }
   .petsam .wide img { width: auto; max-width: 100%; }
   .petsam table { font-size: 8pt; }
   .petsam th, .petsam td.number, .petsam td.error { white-space: normal; padding-right: 0.6em; }
   .petsam .frame { grid-template-columns: repeat(3, 1fr); }
+  .petsam .frame:has(> :nth-child(4):last-child) { grid-template-columns: repeat(2, 1fr); max-width: 120mm; }
   .petsam .page { break-before: page; }
   .petsam .many { page: many; }
   .petsam tbody th { position: static; }
@@ -161,8 +178,8 @@ def quantity(value, unit="", digits=6, beside=0.0):
 
 
 def broken(name):
-    """A name that may be broken after its underscores."""
-    return Html(text(name).replace("_", "_<wbr>"))
+    """A name that may be broken after its underscores where it is long."""
+    return Html(text(name).replace("_", "_<wbr>")) if len(name) > WORD else text(name)
 
 
 def table(caption, heads, rows, long=()):

@@ -12,7 +12,7 @@ from ..core.version import __version__
 from ..results.file import Results
 from ..results.stresses import Stresses
 from ..results.studies import Study
-from . import founds, frames, kinds, page, sheets
+from . import checks, founds, frames, heads, kinds, page, sheets
 from .style import need_kind
 
 CITED = "petsam: partial-slip contact of elastic bodies by the semi-analytical method"
@@ -30,6 +30,7 @@ CAPTIONS = {
     "sections": "Stresses over depth",
     "fatigue": "Fatigue parameters",
 }
+SLIDER = 2  # saved steps from which a slider shows their fields
 WIDE = 7.5  # inches of a picture from which it scrolls on small screens
 OF_STRESSES = {"maps": "Stresses over planes", "profiles": "Stress on the surface"}
 
@@ -58,8 +59,15 @@ def report(results: Any, path: Union[str, os.PathLike], inputs: Optional[Mapping
     if inputs:
         raise Error("report: inputs are for results of an application; files have their own: remove them")
     need(results, path)
-    names = kinds.usual([results])
+    names = once(results, kinds.usual([results]))
     write(results, path, {name: kinds.function(name, [results])(results) for name in names})
+
+
+def once(results, names):
+    """The kinds of picture without those whose fields the slider shows at every saved step."""
+    if not isinstance(results, Results) or results.times.size < SLIDER:
+        return names
+    return [name for name in names if name != ("profiles" if results.is_plane else "maps")]
 
 
 def view(results: Results) -> frames.View:
@@ -145,10 +153,19 @@ def _parts(results, pictures):
     last = sheets.of_last(results, int(results.solved[-1]) if isinstance(results, Results) else results.of_last())
     if isinstance(results, Stresses):
         return [_head(results), last, pictures, sheets.history(results), sheets.inputs(results), _citation(results)]
-    maps = [page.section("Saved steps", frames.slider(results, _room(pictures)))] if results.times.size else []
+    several = results.times.size >= SLIDER
+    maps = [page.section("Saved steps", frames.slider(results, _room(pictures)))] if several else []
     tables = [sheets.history(results), *([sheets.life(results)] if results.has_life else [])]
-    checked = [sheets.check(results), sheets.doubts(results)]
-    return [_head(results), *checked, last, *maps, pictures, *tables, sheets.inputs(results), _citation(results)]
+    return [
+        _head(results),
+        checks.check(results),
+        last,
+        *maps,
+        pictures,
+        *tables,
+        sheets.inputs(results),
+        _citation(results),
+    ]
 
 
 def _room(pictures):
@@ -169,6 +186,7 @@ def _head(results):
     if isinstance(results, Results):
         rows.append(("Grid", page.Html(f"{results.x.size} x {results.y.size} cells, {_size(results)}")))
         rows.append(("Steps", f"{results.history['time'].size}, fields of {results.times.size}"))
+        rows += heads.rows(results)
     title = page.element("h1", results.label)
     return page.element("header", title, *([page.element("p", about)] if about else []), page.terms(rows))
 

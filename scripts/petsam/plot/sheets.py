@@ -1,4 +1,4 @@
-"""The tables of a report: inputs, numbers of the last step with their errors, check, history, cases of a study."""
+"""The tables of a report: inputs, numbers of the last step with their errors, history, cases of a study."""
 
 import math
 import shlex
@@ -17,23 +17,9 @@ ABOUT = (
     "source", "title", "traction_error",
 )  # attributes that are no inputs  # fmt: skip
 WORK = ("_iterations", "_applies", "_preconditions", "_residual")  # ends of the names of numbers about the solution
-STATES = {
-    10: "did not converge",
-    11: "has no equilibrium (gross slip under force control, or moments that no pressure balances)",
-    12: "has contact at the edge of the grid",
-}
-# errors of the check, their options and usual tolerances
-CHECK = {
-    "normal_residual": ("-normal_rtol", 1e-8, "gap where there is pressure, penetration and tension elsewhere"),
-    "tangential_residual": ("-tangential_rtol", 1e-6, "stick, slip and its direction"),
-    "equilibrium_residual": ("", 1e-10, "loads and integrals of the tractions"),
-}
-OVER = "above: accepted as rounding"
-SLACK = 1.05  # the check allows so much of a tolerance
 BY_STEP = {"dissipated_energy": "energy_error"}  # numbers and columns with their errors by the length of the load step
 CLOSED = "_closed"  # end of the name of a number in closed form, which stands below that number
 PLACE = ("_x", "_y", "_z")  # ends of the names of the places of a stress
-LARGE = 0.05  # errors of numbers from which they are warned of
 SAME = 1e-6  # relative difference of a number and the one that its error is of
 COLUMNS = (
     "load_n", "load_tx", "load_ty", "load_mx", "load_my", "load_mz", "disp_z", "disp_x", "disp_y", "creep_x", "creep_y",
@@ -70,8 +56,12 @@ def _value(value):
 def as_input(name, value, options):
     """The row of an input: its name, its value with the unit, and how it was given."""
     unit = OPTIONS.get(name, "")
-    number = np.ndim(value) == 0 and np.issubdtype(type(value), np.number)
-    shown = page.quantity(float(value), unit, 10) if number else page.text(_value(value) + (unit and f" {unit}"))
+    number = np.ndim(value) == 0 and np.issubdtype(type(value), np.number) and math.isfinite(value)
+    infinite = isinstance(value, float) and math.isinf(value)
+    if number:
+        shown = page.quantity(float(value), unit, 10)
+    else:
+        shown = page.text(_value(value) + (f" {unit}" if unit and not infinite else ""))
     return name, shown, options.get("-" + name, "")
 
 
@@ -228,85 +218,6 @@ def of_last(results, row):
         page.table(what, heads, rows, (len(heads) - 1,)),
         *([page.element("p", note)] if note else []),
     )
-
-
-# ---------------------------------------------------------------- check and warnings
-
-
-def exit_code(results):
-    """The exit code that the states of the steps stand for; None while a run writes, or after it was killed."""
-    if not results.parameters.get("closed", 1):
-        return None
-    states = [int(state) for state in results.history["status"] if state]
-    return states[-1] if states else 0
-
-
-def _states(results):
-    """How many steps have each state that is not 0."""
-    states, counts = np.unique(results.history["status"].astype(int), return_counts=True)
-    return [(int(state), int(count)) for state, count in zip(states, counts) if state]
-
-
-def residuals(results):
-    """Returns name, largest value of all solved steps, tolerance and quantity for each error of the check."""
-    options, found = {name.lower(): value for name, value in given(results)}, []
-    for name, (option, usual, what) in CHECK.items():
-        if name not in results.history:
-            continue
-        values = results.series(name)
-        values = values[np.isfinite(values)]
-        try:
-            tolerance = float(options.get(option, usual))
-        except ValueError:
-            tolerance = usual
-        if values.size:
-            found.append((name, float(np.max(values)), tolerance, what))
-    return found
-
-
-def check(results):
-    """The section of the check: verdict, residuals, exit code."""
-    code, bad = exit_code(results), [count for _, count in _states(results)]
-    rows = []
-    for name, value, tolerance, what in residuals(results):
-        state = "below" if value <= SLACK * tolerance else "above: not converged" if bad else OVER
-        rows.append((name, (value, "1"), (tolerance, "1"), state, what))
-    count = results.history["status"].size
-    if bad:
-        verdict = f"Failed: {sum(bad)} of {counted(count, 'step')} marked."
-    else:
-        verdict = f"Passed: all {counted(count, 'step')} converged, and the check agrees."
-    ended = f"Exit code {code}." if code is not None else "No exit code: the run has not ended, or was killed."
-    words = page.element("p", f"{verdict} {ended}", class_=f"verdict {'warning' if bad or code is None else 'fine'}")
-    table = page.table(
-        "Largest relative errors of all steps, recomputed from tractions and rigid-body displacements alone",
-        ("error", "largest", "tolerance", "state", "of"), rows, (4,)
-    )  # fmt: skip
-    return page.section("Check", words, table)
-
-
-def warnings(results):
-    """Returns the warnings of the file for its reader, a line each."""
-    found = [f"{counted(count, 'step')} {STATES.get(state, 'has a state that is unknown')} (exit code {state})"
-             for state, count in _states(results)]  # fmt: skip
-    if not results.parameters.get("closed", 1):
-        found.append("the file is not closed: a run writes to it, or was killed")
-    for name, one in results.errors.items():
-        if not math.isfinite(one.error):
-            found.append(f"the error of {name} is unknown")
-        elif one.error > LARGE:
-            found.append(f"{name} has an error of {percent(one.error)} by the {one.cause}")
-    return found + results.warnings
-
-
-def doubts(results):
-    """The section of the warnings."""
-    found = warnings(results)
-    note = "Messages about failed steps, and that -accuracy is not reached, are on the run's stderr alone."
-    if not found:
-        return page.section("Warnings", page.element("p", f"The file has none. {note}"))
-    lines = page.element("ul", *(page.element("li", one) for one in found), class_="warning")
-    return page.section("Warnings", lines, page.element("p", note))
 
 
 # ---------------------------------------------------------------- tables

@@ -5,13 +5,47 @@ from collections.abc import Mapping
 import numpy as np
 from matplotlib.figure import Figure
 
-from ...plot.style import colors, plt
+from ...plot.style import BARS, MARKED, colors, drawn, note, plt, points
+from ...plot.units import label, plain, scale
 from .scars import Scar
 from .series import Result
 
+SIDE = 4.4, 3.8  # inches of a panel
 
+
+def _measured(panel, x, y):
+    """Measured values: white points as long as they do not form a band."""
+    points(panel, x, y, colors()[0], label="measured", zorder=1, **({} if len(x) <= MARKED else {"markersize": 2.2}))
+
+
+def _loop(panel, one, title, length, force):
+    """The measured loop of a cycle, and its fit above it."""
+    loop, (d, q) = one.loops[0], one.curves[0]
+    _measured(panel, length[0] * loop.displacement, force[0] * loop.force)
+    if one.state != "rejected":
+        panel.plot(length[0] * d, force[0] * q, color=colors()[1], linewidth=1.4, label="fit")
+    panel.set(xlabel=label("displacement", length[1]), ylabel=label("force", force[1]), title=title)
+    panel.legend(loc="upper left")
+
+
+def _over_cycles(panel, found):
+    """Friction with its 95 % over the cycles; where the loops do not hold it, their energy."""
+    each = found.each or [found.fit] * len(found.numbers)
+    friction = np.array([one.friction for one in each])
+    deviation = np.nan_to_num([one.friction_sd for one in each])
+    if np.isfinite(friction).any():
+        panel.errorbar(found.numbers, friction, 2.0 * deviation, color=colors()[2], **BARS)
+        points(panel, found.numbers, friction, colors()[2], markersize=5.0)
+        panel.set(xlabel="cycle", ylabel="friction", title="friction, bars of 95 %")
+    else:
+        factor, unit = scale("J", found.energy)
+        points(panel, found.numbers, factor * found.energy, colors()[2], markersize=5.0)
+        panel.set(xlabel="cycle", ylabel=label("dissipated energy", unit), title="energy of the loops")
+
+
+@drawn(Result)
 def fit(found: Result) -> Figure:
-    """Measured loops with their fit, and friction and energy over the cycles.
+    """Measured loops of the first and of the last cycle with their fits, and friction or energy over the cycles.
 
     Parameters
     ----------
@@ -21,35 +55,24 @@ def fit(found: Result) -> Figure:
     -------
     matplotlib.figure.Figure
     """
-    several = len(found.numbers) > 1
-    figure, axes = plt.subplots(1, 2 if several else 1, figsize=(10.0 if several else 5.6, 4.2), squeeze=False,
-                                constrained_layout=True)  # fmt: skip
-    left = axes[0, 0]
     fits = [found.each[0], found.each[-1]] if found.each else [found.fit]
-    names = ["first cycle", "last cycle"] if len(fits) > 1 else ["measured"]
-    for one, name, tint in zip(fits, names, colors(len(fits))):
-        loop, (d, q) = one.loops[0], one.curves[0]
-        left.plot(1e6 * loop.displacement, loop.force, ".", color=tint, markersize=3.0, label=name)
-        if one.state != "rejected":
-            left.plot(1e6 * d, q, color=tint, linewidth=1.0, label="fit")
-    left.set(xlabel="displacement, µm", ylabel="force, N", title=found.state)
-    left.legend(loc="best", fontsize=8)
-    if several:
-        right = axes[0, 1]
-        each = found.each or [found.fit] * len(found.numbers)
-        friction = np.array([one.friction for one in each])
-        deviation = np.nan_to_num([one.friction_sd for one in each])
-        if np.isfinite(friction).any():
-            low, high = friction - 2.0 * deviation, friction + 2.0 * deviation
-            right.vlines(found.numbers, low, high, color=colors(1)[0], linewidth=1.2, alpha=0.5)
-            right.plot(found.numbers, friction, "o", color=colors(1)[0], markersize=4.0)
-            right.set(xlabel="cycle", ylabel="friction, with 95 %")
-        else:
-            right.plot(found.numbers, 1e6 * found.energy, "o", color=colors(1)[0], markersize=4.0)
-            right.set(xlabel="cycle", ylabel="dissipated energy, uJ")
+    titles = ["first cycle", "last cycle"] if len(fits) > 1 else ["first loop"]
+    count = len(fits) + (len(found.numbers) > 1)
+    figure, axes = plt.subplots(1, count, figsize=(SIDE[0] * count, SIDE[1]), squeeze=False, layout="constrained")
+    length = scale("m", *(one.loops[0].displacement for one in fits))
+    force = scale("N", *(one.loops[0].force for one in fits))
+    for panel, one, title in zip(axes[0], fits, titles):
+        _loop(panel, one, title, length, force)
+    if len(fits) > 1:  # with one scale
+        axes[0, 1].sharex(axes[0, 0])
+        axes[0, 1].sharey(axes[0, 0])
+    if count > len(fits):
+        _over_cycles(axes[0, -1], found)
+    note(figure, f"friction: {found.state}")
     return figure
 
 
+@drawn(Mapping)
 def scar_fit(found: Mapping[str, Scar]) -> Figure:
     """Measured profiles of scars with their fits.
 
@@ -62,11 +85,15 @@ def scar_fit(found: Mapping[str, Scar]) -> Figure:
     -------
     matplotlib.figure.Figure
     """
-    figure, panel = plt.subplots(figsize=(6.4, 4.2), constrained_layout=True)
+    figure, panel = plt.subplots(figsize=(6.4, 4.2), layout="constrained")
+    length = scale("m", *(scar.x for scar in found.values()))
+    height = scale("m", *(scar.height for scar in found.values()))
     for (name, scar), tint in zip(found.items(), colors(len(found))):
-        panel.plot(1e3 * scar.x, 1e6 * scar.height, ".", color=tint, markersize=4.0, label=name)
-        text = "no numbers" if scar.doubt else f"{scar.coefficient:.3g} +- {scar.coefficient_sd:.2g} 1/Pa"
-        panel.plot(1e3 * scar.x, 1e6 * scar.curve, color=tint, linewidth=1.0, label=text)
-    panel.set(xlabel="x, mm", ylabel="height, µm")
-    panel.legend(loc="best", fontsize=8)
+        points(panel, length[0] * scar.x, height[0] * scar.height, tint, zorder=1, label=plain(name))
+        text = (
+            "no numbers" if scar.doubt else f"{scar.coefficient:.3g} \N{PLUS-MINUS SIGN} {scar.coefficient_sd:.2g} 1/Pa"
+        )
+        panel.plot(length[0] * scar.x, height[0] * scar.curve, color=tint, linewidth=1.4, label=text)
+    panel.set(xlabel=label("$x$", length[1]), ylabel=label("height", height[1]))
+    panel.legend(loc="best")
     return figure

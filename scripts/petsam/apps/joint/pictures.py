@@ -35,7 +35,7 @@ HATCH, HATCHED = "////", "0.25"  # of what slips
 
 @drawn(Interface)
 def interface(found: Interface) -> Figure:
-    """The stiffnesses and the real contact area over the pressure.
+    """The stiffnesses, the real contact area and, where it is computed, the conductance over the pressure.
 
     Parameters
     ----------
@@ -46,7 +46,9 @@ def interface(found: Interface) -> Figure:
     -------
     matplotlib.figure.Figure
     """
-    figure, (left, right) = plt.subplots(1, 2, figsize=(8.0, 3.4), layout="constrained")
+    conducts = found.conductors is not None and "h" in found.numbers
+    count = 3 if conducts else 2
+    figure, (left, right, *more) = plt.subplots(1, count, figsize=(4.0 * count, 3.4), layout="constrained")
     pressure = found.numbers["pressure"] / 1e6
     for axes, name, label, unit, color, look in (
         (left, "k_n", "normal", 1e-12, colors()[0], {"marker": "o"}),
@@ -66,7 +68,21 @@ def interface(found: Interface) -> Figure:
         axes.set(xlabel="nominal pressure, MPa", ylabel=label)
         logarithmic(axes, "xy")
     left.legend()
+    for axes in more:
+        _conductance(axes, found, 0)
     return figure
+
+
+def _conductance(axes, found, k):
+    """The k-th interface's conductance per area over the pressure."""
+    look = {"ms": 5.0, "linewidth": 1.2, "markerfacecolor": "none", "capsize": 3.0, "marker": "osD^v"[k % 5]}
+    color = colors()[k % len(colors())]
+    pressure, spread = found.numbers["pressure"] / 1e6, found.spread.get("h")
+    axes.errorbar(pressure, found.numbers["h"], spread, color=color, label=_conducting(found.conductors), **look)
+    unit = "S/m²" if found.conductors.electrical else "W/(m² K)"
+    axes.set(xlabel="nominal pressure, MPa", ylabel=f"contact conductance, {unit}")
+    logarithmic(axes, "xy")
+    axes.legend()
 
 
 def _changes(ax, first, what):
@@ -185,6 +201,7 @@ def slip_zones(found: Backbone, *, bolts: Optional[Mapping[str, ArrayLike]] = No
             right.set_title(f"{found.names[k]}: largest amplitude")
             continue
         pressed = np.where(found.pressure[k] > 0.0, 1e-6 * found.pressure[k], np.nan)
+        left.set_facecolor(STATES[OPEN][1])
         mesh = left.pcolormesh(1e3 * x, 1e3 * y, pressed, cmap="viridis", vmin=0.0, vmax=highest, rasterized=True)
         bar(left, mesh, "pressure $p$, MPa")
         given = dict(cmap=ListedColormap(tints), vmin=-0.5, vmax=len(tints) - 0.5, rasterized=True)
@@ -346,20 +363,7 @@ def conductance(*found: Interface) -> Figure:
         raise Error("conductance: thermal and electrical conductances have different units: draw one picture of each")
     figure, axes = plt.subplots(figsize=(5.0, 3.4), layout="constrained")
     for k, one in enumerate(found):
-        spread = one.spread.get("h")
-        look = {"ms": 5.0, "linewidth": 1.2, "markerfacecolor": "none", "capsize": 3.0, "marker": "osD^v"[k % 5]}
-        axes.errorbar(
-            one.numbers["pressure"] / 1e6,
-            one.numbers["h"],
-            spread,
-            color=colors()[k % len(colors())],
-            label=_conducting(one.conductors),
-            **look,
-        )
-    unit = "S/m²" if electrical.pop() else "W/(m² K)"
-    axes.set(xlabel="nominal pressure, MPa", ylabel=f"contact conductance, {unit}")
-    logarithmic(axes, "xy")
-    axes.legend()
+        _conductance(axes, one, k)
     return figure
 
 

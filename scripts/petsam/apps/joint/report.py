@@ -28,6 +28,8 @@ KINDS = {
 def contents(found):
     """The contents for plot/founds.py; a table of a file has its kind's title, and a picture of its columns."""
     title, pictures = KINDS[found.kind if isinstance(found, Saved) else type(found)]
+    if isinstance(found, Interface) and found.conductors is not None:
+        pictures = {"Stiffness, real contact area and conductance": of_joints.interface}
     columns = _columns(found)
     return {
         "title": title,

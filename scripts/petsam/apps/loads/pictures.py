@@ -1,4 +1,4 @@
-"""A picture of a load history: loads over time, the path of T, N, and the path of the contact's centre."""
+"""A picture of a load history: loads and moments over time, the path of T, and the path of the contact's centre."""
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -9,16 +9,18 @@ from ...results.file import Results
 from .resultants import SYMBOLS, History
 
 NODES = 4000  # that are drawn
+# three panels over time beside two that are as wide as high
+PLACES = [["shear", "path"], ["shear", "path"], ["normal", "path"], ["normal", "centre"], ["moments", "centre"],
+          ["moments", "centre"]]  # fmt: skip
 
 
-def _over_time(panel, found, names, unit):
+def _over_time(panel, found, names, unit, what):
     """Loads over time, by their columns."""
     for name, tint in zip(names, colors()):
         values = next(column.values for column in found.table() if column.name == name)
         panel.plot(
             found.times, unit[0] * np.array(values), color=tint, label=f"${SYMBOLS[name]}$", **curve(found.times.size)
         )
-    what = f"${SYMBOLS[names[0]]}$" if len(names) == 1 else "tangential force"
     panel.set(xlabel=label("time", "s"), ylabel=label(what, unit[1]))
     if len(names) > 1:
         panel.legend()
@@ -46,7 +48,7 @@ def _center(panel, found):
 
 @drawn(History)
 def loads(found: History) -> Figure:
-    """N, T_x and T_y over time, the path of T, and that of the contact's centre.
+    """T, N and the moments over time, the path of T, and that of the contact's centre.
 
     Parameters
     ----------
@@ -58,16 +60,18 @@ def loads(found: History) -> Figure:
     matplotlib.figure.Figure
     """
     tangential = found.loads[:, 1:3]
-    shear, normal = scale("N", tangential), scale("N", found.loads[:, 0])
-    figure, ((top, side), (low, last)) = plt.subplots(2, 2, figsize=(9.6, 7.4), layout="constrained")
-    _over_time(top, found, ["load_tx", "load_ty"], shear)
-    _over_time(low, found, ["load_n"], normal)
+    shear, normal, moment = scale("N", tangential), scale("N", found.loads[:, 0]), scale("N m", found.loads[:, 3:])
+    figure, panels = plt.subplot_mosaic(PLACES, figsize=(9.6, 8.4), layout="constrained")
+    _over_time(panels["shear"], found, ["load_tx", "load_ty"], shear, "tangential force")
+    _over_time(panels["normal"], found, ["load_n"], normal, f"${SYMBOLS['load_n']}$")
+    _over_time(panels["moments"], found, ["load_mx", "load_my", "load_mz"], moment, "moment")
+    side = panels["path"]
     t_x, t_y = tangential.T
     _path(side, t_x, t_y, shear, colors()[2])
     side.set(xlabel=label("$T_x$", shear[1]), ylabel=label("$T_y$", shear[1]))
     side.set_aspect("equal", adjustable="datalim")
     side.legend()
-    _center(last, found)
+    _center(panels["centre"], found)
     note(figure, f"{plain(found.name)}: {found.x.shape[0]} nodes, forces on body {found.on[-1]} of the analysis")
     return figure
 
