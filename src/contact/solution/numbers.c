@@ -267,7 +267,8 @@ static PetscErrorCode SumCells(SamProblem problem, const SamSolution *last, cons
   balance->released          = sums[RELEASED] * area;
   balance->bore              = sums[BORE] * area;
   balance->bears             = sums[BEARS] * area;
-  sums[ERROR] += sums[TURNED] / PetscMax(sums[STICK] / PetscMax(sums[CONTACT], 1), LEAST) + ErrorOfTouching(s->rule, sums);
+  sums[ERROR] +=
+    sums[TURNED] / PetscMax(sums[STICK] / PetscMax(sums[CONTACT], 1), LEAST) + ErrorOfTouching(s->rule, sums);
   numbers[ENERGY_ERROR] = sums[ERROR] * area;
   numbers[ENTERING]     = sums[BEFORE_TOUCH] * area;
   numbers[TOUCHING]     = SamRuleTouches(s->rule) ? 1 : 0;
@@ -389,9 +390,9 @@ static double ErrorByBalance(const SamSolution *before, const SamSolution *s, Pe
     work += 0.5 * (double)(before->load[c] + s->load[c]) * way[n];
     unsure += CURVED * fabs((double)(s->load[c] - before->load[c]) * way[n]);
   }
-  lost = RELEASES * PetscMax(balance->released, PetscMax(unsure, CURVED * balance->bore * hypot(way[0], way[1])));
+  lost    = RELEASES * PetscMax(balance->released, PetscMax(unsure, CURVED * balance->bore * hypot(way[0], way[1])));
   stiffer = more > 0 ? 1 - cbrt(less / more) : 0;
-  lacks = balances ? fabs(work - balance->locked - numbers[DISSIPATED_ENERGY]) : unsure * stiffer / (2 - stiffer) / 3;
+  lacks   = balances ? fabs(work - balance->locked - numbers[DISSIPATED_ENERGY]) : unsure * stiffer / (2 - stiffer) / 3;
   if (lacks <= ROUNDING * numbers[STORED_ENERGY]) lacks = 0;
   if (more == balance->bears && lacks <= LOCKS * (fabs(balance->locked) + unsure)) lacks = 0;
   loses = PetscMax(lacks, balance->bears > 0 ? RELEASES * balance->released : lost);
