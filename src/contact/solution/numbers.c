@@ -366,12 +366,18 @@ static PetscErrorCode HasBalance(SamProblem problem, const SamSolution *before, 
   displacement is held, or the load; else it is that of a load which changes in proportion to the displacement, give or
   take CURVED times the product of both changes: that of a load which changes at once, as where all slides back. Where N
   stays, the sum over cells is far better, and within that. Where N falls or grows, as large a part of the difference
-  counts as the bounds of the shear have lost or won. Where N grows and all sticks, the difference is that of the shear
-  which is locked in: later steps dissipate it; less than LOCKS of what is locked in counts as none. In cells that are released that part of RELEASES times their work counts, as they
-  slide in another order in a long step; where contact is lost as a whole, of the uncertain work, too, and of half the
-  work of the bounds along the displacement: that may go back with N, or begin with it, so that nothing seems to be
-  lost. Of bodies without this balance that is all that is known. What is rounding beside the energy that both bodies
-  store is none.
+  counts as the bounds of the shear have lost or won.
+
+  Where N falls: in cells that are released that part of RELEASES times their work counts, as they slide in another order
+  in a long step; where contact is lost as a whole, of the uncertain work, too, and of half the work of the bounds along
+  the displacement: that may go back with N, or begin with it, so that nothing seems to be lost.
+
+  Where N grows and all sticks, the difference belongs to the shear that the step locks in, and later steps dissipate
+  it; below LOCKS times what is locked in it counts as none.
+
+  Bodies without this balance have the difference of similar ones whose stiffness k follows the contact's radius, the
+  cube root of N: the work of a load with dT/dd from k0 to k1 is (k1 - k0)/12 dd^2 below that of its mean, a third of
+  (k1 - k0)/(k1 + k0) times the uncertain work. A difference that is rounding beside the stored energy is none.
 */
 #define CURVED   0.5
 #define RELEASES 0.3
