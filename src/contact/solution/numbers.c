@@ -369,8 +369,8 @@ static PetscErrorCode HasBalance(SamProblem problem, const SamSolution *before, 
   counts as the bounds of the shear have lost or won.
 
   Where N falls: in cells that are released that part of RELEASES times their work counts, as they slide in another
-  order in a long step; where contact is lost as a whole, of the uncertain work, too, and of half the work of the bounds along
-  the displacement: that may go back with N, or begin with it, so that nothing seems to be lost.
+  order in a long step; where contact is lost as a whole, of the uncertain work, too, and of half the work of the bounds
+  along the displacement: that may go back with N, or begin with it, so that nothing seems to be lost.
 
   Where N grows and all sticks, the difference belongs to the shear that the step locks in, and later steps dissipate
   it; below LOCKS times what is locked in it counts as none.
