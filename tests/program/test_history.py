@@ -375,7 +375,7 @@ def test_work_of_the_end_loads_is_dissipated_or_stored(drive, rough):
 
 
 def long_path(drive, rough, ranks=1):
-    return drive(rough(64, load_n=None), LOADS, six(60), ranks=ranks)
+    return drive(rough(64, load_n=None, step_divide="no"), LOADS, six(60), ranks=ranks)
 
 
 @pytest.mark.parametrize("ranks", [1, 3])

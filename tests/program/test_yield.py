@@ -802,4 +802,4 @@ def test_energy_of_a_first_step_that_yields_is_not_known(solve, yields):
     found = all_steps(solve(dict(case, body2_yield=YIELD if yields else 10 * YIELD)))
     energy, error = (found[name][0] for name in ("dissipated_energy", "energy_error"))
     assert (found["plastic_work"][0] > 0) == yields and energy > 0
-    assert error == pytest.approx(energy, rel=1e-12, abs=0) if yields else error < 0.5 * energy
+    assert error == pytest.approx(energy, rel=1e-12, abs=0) if yields else error < 0.9 * energy

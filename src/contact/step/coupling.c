@@ -57,8 +57,9 @@
 #define NORMAL_ENOUGH    0.7 /* the check's scale, the whole displacement, may be smaller than the one by p */
 #define TANGENTIAL_FINAL 0.5
 /* Part of the last change of the shear to which the shear is solved where the motion until cells touch changes with
-   it: that may change the shear far more than the lift does. */
-#define FOLLOWS 0.05
+   it: that may change the shear far more than the lift does. Once it changes less than SETTLED, the lift decides. */
+#define FOLLOWS 0.02
+#define SETTLED 1e-4
 /* Error below which both problems are solved as one system (together.c), if after so many passes they have left a
    larger part of the error than SLOW on average: else passes are cheaper, as a product of the system leaves 0.4. */
 #define CLOSE        1e-2
@@ -168,7 +169,7 @@ static PetscErrorCode Solve(Passes *p, PetscInt pass)
   const PetscReal error = PetscMin(p->error, FIRST);
   /* the motion until cells touch need not settle, and follows from the shear of the first passes, too */
   const PetscReal part  = p->rough && s->touching ? PetscMin(error, SAM_ROUGH * p->rtol[1]) : error;
-  const PetscReal moves = SamSolveFindsTouching(s) ? FOLLOWS * p->changed : 0;
+  const PetscReal moves = SamSolveFindsTouching(s) && !p->rough && p->changed > SETTLED ? FOLLOWS * p->changed : 0;
   const PetscReal rtol =
     p->sharper * PetscMax(TANGENTIAL_FINAL * PetscMin(p->rtol[0], p->rtol[1]), PetscMax(part, PetscMin(moves, FIRST)));
   const SamEffort effort = brief ? SAM_EFFORT_FEW_ITERATIONS : SAM_EFFORT_FULL;

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 import numpy as np
 from matplotlib.figure import Figure
 
-from ...plot.style import BARS, MARKED, colors, drawn, note, plt, points
+from ...plot.style import colors, curve, drawn, note, plt
 from ...plot.units import label, plain, scale
 from .scars import Scar
 from .series import Result
@@ -13,15 +13,16 @@ from .series import Result
 SIDE = 4.4, 3.8  # inches of a panel
 
 
-def _measured(panel, x, y):
-    """Measured values: white points as long as they do not form a band."""
-    points(panel, x, y, colors()[0], label="measured", zorder=1, **({} if len(x) <= MARKED else {"markersize": 2.2}))
+def _points(panel, x, y, tint, **style):
+    """Values as points of that colour, small ones where they are many."""
+    style = {"marker": "o", "markersize": 4.4 if curve(len(x))["marker"] else 2.2, "markerfacecolor": "white", **style}
+    panel.plot(x, y, color=tint, linestyle="none", **style)
 
 
 def _loop(panel, one, title, length, force):
     """The measured loop of a cycle, and its fit above it."""
     loop, (d, q) = one.loops[0], one.curves[0]
-    _measured(panel, length[0] * loop.displacement, force[0] * loop.force)
+    _points(panel, length[0] * loop.displacement, force[0] * loop.force, colors()[0], label="measured", zorder=1)
     if one.state != "rejected":
         panel.plot(length[0] * d, force[0] * q, color=colors()[1], linewidth=1.4, label="fit")
     panel.set(xlabel=label("displacement", length[1]), ylabel=label("force", force[1]), title=title)
@@ -34,12 +35,12 @@ def _over_cycles(panel, found):
     friction = np.array([one.friction for one in each])
     deviation = np.nan_to_num([one.friction_sd for one in each])
     if np.isfinite(friction).any():
-        panel.errorbar(found.numbers, friction, 2.0 * deviation, color=colors()[2], **BARS)
-        points(panel, found.numbers, friction, colors()[2], markersize=5.0)
+        panel.errorbar(found.numbers, friction, 2.0 * deviation, color=colors()[2], fmt="none", alpha=0.5)
+        _points(panel, found.numbers, friction, colors()[2])
         panel.set(xlabel="cycle", ylabel="friction", title="friction, bars of 95 %")
     else:
         factor, unit = scale("J", found.energy)
-        points(panel, found.numbers, factor * found.energy, colors()[2], markersize=5.0)
+        _points(panel, found.numbers, factor * found.energy, colors()[2])
         panel.set(xlabel="cycle", ylabel=label("dissipated energy", unit), title="energy of the loops")
 
 
@@ -89,7 +90,7 @@ def scar_fit(found: Mapping[str, Scar]) -> Figure:
     length = scale("m", *(scar.x for scar in found.values()))
     height = scale("m", *(scar.height for scar in found.values()))
     for (name, scar), tint in zip(found.items(), colors(len(found))):
-        points(panel, length[0] * scar.x, height[0] * scar.height, tint, zorder=1, label=plain(name))
+        _points(panel, length[0] * scar.x, height[0] * scar.height, tint, zorder=1, label=plain(name))
         text = (
             "no numbers" if scar.doubt else f"{scar.coefficient:.3g} \N{PLUS-MINUS SIGN} {scar.coefficient_sd:.2g} 1/Pa"
         )
