@@ -319,7 +319,8 @@ with petsam.Contact(**case) as contact:
 
 
 def test_python_has_the_field_of_the_law(petsam, prefix, plugin, tmp_path):
-    petsam(SPHERE, FADING, dict(plugin=plugin, history="history.csv", output="out.h5", output_fields="fading_path"))
+    petsam(SPHERE, FADING, dict(plugin=plugin, history="history.csv", step_divide="no", output="out.h5",
+                                output_fields="fading_path"))  # fmt: skip
     case = dict(SPHERE, **FADING, plugin=str(plugin))
     env = dict(
         environment(), PETSAM_LIBRARY=str(prefix / "lib/libpetsam.so"), PYTHONPATH=str(prefix / "share/petsam/scripts")
