@@ -713,8 +713,8 @@ static size_t WriteShare(const SamGradientShare *s, double value, const char bef
 PetscErrorCode SamGradientDescribe(SamGradient g, PetscInt count, const SamGradientShare shares[], char text[],
                                    size_t size)
 {
-  const SamDerivatives *d     = &g->found;
-  const double          value = (double)d->value;
+  const SamDerivatives *d                         = &g->found;
+  const double          value                     = (double)d->value;
   PetscBool             used[SAM_GRADIENT_SHARES] = {PETSC_FALSE};
   size_t                at;
 

@@ -22,12 +22,13 @@ PetscErrorCode SamErrorsRecordGradient(SamSimulation s, PetscBool on)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Returns the step of a companion at whose end all values are those at the end of a step of the simulation, -2: there is
-   none. Both count from 0, in a wear simulation from the start of the cycle; -1: before the first one. */
+/* Returns the step of a companion at whose end all values are those at the end of a step of the simulation, -2: there
+   is none. Both count from 0, in a wear simulation from the start of the cycle; -1: before the first one. */
 static PetscInt FindStep(SamSimulation s, SamSimulation run, PetscInt step)
 {
-  const PetscInt own = s->needs.steps - SamSimulationCountSteps(s), its = run->needs.steps - SamSimulationCountSteps(run);
-  PetscInt       found;
+  const PetscInt own = s->needs.steps - SamSimulationCountSteps(s),
+                 its = run->needs.steps - SamSimulationCountSteps(run);
+  PetscInt found;
 
   if (step < 0) return -1;
   found = SamHistoryFindStep(s->history, run->history, own + step);
