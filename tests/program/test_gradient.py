@@ -1151,7 +1151,15 @@ def test_errors_of_derivatives_beside_mindlin(petsam, cycle, tmp_path):
         closed = shares_of_mindlin(170 / 300)[name]
         steps = dict(gradient_steps="9,16") if name == "energy" else {}
         done = petsam(
-            dict(TOLD, grid_n=n, grid_center=(1e-5, 4e-6), gradient=name, gradient_of=",".join(closed), output="o.h5", **steps)
+            dict(
+                TOLD,
+                grid_n=n,
+                grid_center=(1e-5, 4e-6),
+                gradient=name,
+                gradient_of=",".join(closed),
+                output="o.h5",
+                **steps,
+            )
         )
         file = library.open(tmp_path / "o.h5")
         rows, found = file.errors, file.gradients[name]

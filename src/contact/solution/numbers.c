@@ -368,8 +368,9 @@ static PetscErrorCode HasBalance(SamProblem problem, const SamSolution *before, 
   stays, the sum over cells is far better, and within that. Where N falls or grows, as large a part of the difference
   counts as the bounds of the shear have lost or won. Where N grows and all sticks, the difference is that of the shear
   which is locked in: later steps dissipate it; less than LOCKS of what is locked in counts as none. In cells that are
-  released that part of RELEASES times their work counts, as they slide in another order in a long step; where contact is lost as a whole, of the uncertain work, too, and of half the
-  work of the bounds along the displacement: that may go back with N, or begin with it, so that nothing seems to be
+  released that part of RELEASES times their work counts, as they slide in another order in a long step; where contact
+  is lost as a whole, of the uncertain work, too, and of half the work of the bounds along the displacement: that may
+  go back with N, or begin with it, so that nothing seems to be
   lost. Of bodies without this balance that is all that is known. What is rounding beside the energy that both bodies
   store is none.
 */
