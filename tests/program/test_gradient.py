@@ -1120,8 +1120,8 @@ def test_refused_runs(petsam, loads, change, words):
 
 
 def shares_of_mindlin(ratio):
-    """Derivatives of ln(disp_z), ln(disp_x) and of ln(work of a cycle) of a sphere by ln of the parameters: Hertz, Mindlin,
-    and Mindlin and Deresiewicz, for T over mu N."""
+    """Derivatives of ln(disp_z), ln(disp_x) and of ln(work of a cycle) of a sphere by ln of the parameters: Hertz,
+    Mindlin, and Mindlin and Deresiewicz, for T over mu N."""
     shift = lambda x: 1 - (1 - x) ** (2 / 3)  # noqa: E731
     work = lambda x: 1 - (1 - x) ** (5 / 3) - 5 * x / 6 * (1 + (1 - x) ** (2 / 3))  # noqa: E731
     by = [1e5 * (np.log(of(ratio * (1 + 5e-6))) - np.log(of(ratio * (1 - 5e-6)))) for of in (shift, work)]
