@@ -1114,3 +1114,109 @@ def test_refused_runs(petsam, loads, change, words):
     case = dict(RUN, history="history.csv", gradient="energy", output="out.h5")
     done = petsam({**case, **change}, check=2)
     assert words in done.stderr and "used  " not in done.stdout  # before any step
+
+
+# ---- errors
+
+
+def shares_of_mindlin(ratio):
+    """Derivatives of ln(disp_z), ln(disp_x) and of ln(work of a cycle) of a sphere by ln of the parameters: Hertz,
+    Mindlin, and Mindlin and Deresiewicz, for T over mu N."""
+    shift = lambda x: 1 - (1 - x) ** (2 / 3)  # noqa: E731
+    work = lambda x: 1 - (1 - x) ** (5 / 3) - 5 * x / 6 * (1 + (1 - x) ** (2 / 3))  # noqa: E731
+    by = [1e5 * (np.log(of(ratio * (1 + 5e-6))) - np.log(of(ratio * (1 - 5e-6)))) for of in (shift, work)]
+    shape = dict(gap_radius1=-1 / 3, body1_young=-1 / 3)
+    return {
+        "disp_z": dict(shape, load_n=2 / 3),
+        "disp_x": dict(shape, load_tx=by[0], friction=1 - by[0], load_n=2 / 3 - by[0]),
+        "energy": dict(shape, load_tx=by[1], friction=2 - by[1], load_n=5 / 3 - by[1]),
+    }
+
+
+TOLD = dict(
+    RUN, body1_poisson=0.0, body2_poisson=0.0, grid_size=2.8e-3, history="cycle.csv", steps=4, slip_direction=None,
+    normal_rtol=None, tangential_rtol=None, errors="companion",
+)  # fmt: skip
+
+
+@pytest.fixture
+def cycle(tmp_path):
+    (tmp_path / "cycle.csv").write_text("time,load_n,load_tx\n0,1000,0\n1,1000,170\n2,1000,-170\n3,1000,170\n")
+
+
+def test_errors_of_derivatives_beside_mindlin(petsam, cycle, tmp_path):
+    """Of the derivatives that are wrong by more than 0.5 %, told and true errors; what is printed and stored."""
+    told = []
+    for n, name in ((n, name) for n in (24, 40, 64) for name in ("energy", "disp_x", "disp_z")):
+        closed = shares_of_mindlin(170 / 300)[name]
+        steps = dict(gradient_steps="9,16") if name == "energy" else {}
+        done = petsam(
+            dict(
+                TOLD,
+                grid_n=n,
+                grid_center=(1e-5, 4e-6),
+                gradient=name,
+                gradient_of=",".join(closed),
+                output="o.h5",
+                **steps,
+            )
+        )
+        file = library.open(tmp_path / "o.h5")
+        rows, found = file.errors, file.gradients[name]
+        assert set(found.errors) == set(closed)
+        for one, share in closed.items():
+            row = rows[f"{name}_by_{one}"]
+            error = row.error * abs(row.value / found.value)
+            assert found.errors[one] == pytest.approx(row.error, rel=1e-12)
+            assert f"{one} {row.value / found.value:+.3g} +- {error:.2g} %" in done.stdout
+            told.append((error, abs(row.value / found.value - share), abs(share)))
+    error, true, share = np.array([one for one in told if one[1] > 0.005 * one[2]]).T
+    assert len(error) > 20 and np.mean(error >= true) > 0.75 and 1.5 < np.median(error / true) < 4
+
+
+def test_errors_of_derivatives_are_unknown_without_companions(petsam, cycle, tmp_path):
+    """The head names the option; with it there are errors by other steps, of steps that were selected, on any ranks."""
+    case = dict(TOLD, grid_n=32, gradient="disp_x", gradient_of="friction,load_tx", output="o.h5")
+    line = "of the derivatives unknown; -errors companion finds them"
+    done = petsam(dict(case, errors="closed"))
+    assert line in done.stdout and "+-" not in done.stdout
+    files = []
+    for ranks in (1, 3):
+        done = petsam(dict(case, gradient_steps="12,12", output=f"{ranks}.h5"), ranks=ranks)
+        assert line not in done.stdout
+        files.append(library.open(tmp_path / f"{ranks}.h5"))
+    rows = [file.errors["disp_x_by_load_tx"] for file in files]
+    assert rows[0] == rows[1] and rows[0].unit == "m" and np.isfinite(rows[0].other)
+    by = (rows[0].value, rows[0].half, rows[0].quarter)
+    expected = max(abs(by[0] - by[1]) / 2, abs(by[1] - by[2]) / 4) / abs(by[0])
+    assert rows[0].by_cells == pytest.approx(expected, rel=1e-12)
+
+
+def test_accuracy_counts_derivatives(petsam, cycle, tmp_path):
+    """They ask for finer cells than the numbers, and are named if they do not become as accurate as asked."""
+    case = dict(
+        TOLD, errors=None, grid_n=None, grid_size=None, accuracy="5%", gradient="energy", gradient_of="gap_radius1",
+        output="o.h5", overwrite=True,
+    )  # fmt: skip
+    name, cells = "energy_by_gap_radius1", []
+    for names in ("disp_z", f"disp_z,{name}"):
+        done = petsam(dict(case, accuracy_of=names))
+        cells.append(library.open(tmp_path / "o.h5").parameters["grid_n"][0])
+        assert (f"{name} has the maximum error" in done.stderr + done.stdout) == (name in names)
+    assert cells[1] > 2 * cells[0]
+    assert f"is not reached: the maximum error is 16 %, of {name}" in done.stderr
+    done = petsam(dict(case, accuracy_of="energy_by_friction"), check=2)
+    assert "no number of this run with an error" in done.stderr
+
+
+def test_errors_of_derivatives_of_a_life(petsam, tmp_path):
+    """The companions' jumps are recorded, too."""
+    (tmp_path / "cycle.csv").write_text("time,load_n,load_tx\n0,900,0\n1,900,150\n2,900,-150\n3,900,0\n")
+    petsam(
+        dict(TOLD, grid_n=32, wear_coefficient2=2e-14, wear_jump=500, wear_cycles=1000, gradient="wear_volume",
+             gradient_of="load_n,wear_coefficient", output="o.h5")
+    )  # fmt: skip
+    file = library.open(tmp_path / "o.h5")
+    row, found = file.errors["wear_volume_by_wear_coefficient"], file.gradients["wear_volume"]
+    assert row.value == pytest.approx(found.value, rel=0.1) and row.half == pytest.approx(row.value, rel=0.1)
+    assert 0 < found.errors["wear_coefficient"] < 0.2

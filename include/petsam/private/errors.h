@@ -13,7 +13,7 @@ typedef enum { SAM_RUN_HALF, SAM_RUN_QUARTER, SAM_RUN_OTHER, SAM_RUNS } SamRunKi
   `factor`: how many times narrower cells, more steps or more layers make the error by the larger cause 4 %; 1: it is
   smaller.
 */
-#define SAM_ERROR_NAME 56
+#define SAM_ERROR_NAME 128
 typedef struct {
   char        name[SAM_ERROR_NAME];
   const char *unit;
@@ -29,10 +29,11 @@ typedef struct {
 } SamErrorRow;
 
 /* SamErrorTable - the rows, and how they were found. */
-#define SAM_ERROR_ROWS 64
+#define SAM_ERROR_ROWS  64  /* most numbers of a step with errors */
+#define SAM_ERROR_TABLE 192 /* most rows, with those of derivatives */
 typedef struct {
   PetscInt    count;
-  SamErrorRow row[SAM_ERROR_ROWS];
+  SamErrorRow row[SAM_ERROR_TABLE];
   char        runs[192]; /* the companion runs, in words; empty: there are none */
   double      seconds;   /* time that they took, s */
 } SamErrorTable;
@@ -42,11 +43,13 @@ typedef struct {
   `energy`: it is an energy of bodies that do not yield.
   SamErrorOfSeries - returns the same for a number whose differences from grid to grid hardly fall, infinite if they
   grow; 0: they fall, or that of the finer grids is at most `least`, in the number's unit.
+  SamErrorOfDerivative - returns that of a derivative by the cells.
   SamErrorBySteps - returns the error of a number by the steps; `same`: the run on the same cells as SAM_RUN_OTHER.
   Those by cells and by steps are NaN if unknown. None is collective (estimates.c).
 */
 PETSC_INTERN double SamErrorByCells(PetscBool energy, double own, const double run[SAM_RUNS]);
 PETSC_INTERN double SamErrorOfSeries(double least, double own, const double run[SAM_RUNS]);
+PETSC_INTERN double SamErrorOfDerivative(double own, const double run[SAM_RUNS]);
 PETSC_INTERN double SamErrorBySteps(const double run[SAM_RUNS], SamRunKind same);
 
 #endif

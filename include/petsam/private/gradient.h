@@ -198,12 +198,24 @@ PETSC_INTERN PetscErrorCode SamGradientGetNumber(SamGradient gradient, const cha
 PETSC_INTERN PetscErrorCode SamGradientCheck(SamGradient gradient, const SamGradientGoal *goal, const PetscBool force[],
                                              const char of[]);
 /*
+  SamGradientShare - a parameter by which the derivative was wanted, with that times the value of the parameter, in the
+  unit of the number: values of all cells, or of all steps, change together. `error`: that of the share, in the same
+  unit; NaN: unknown.
+  SamGradientGetShares - gets the shares of all wanted parameters with one number or a value of each step, and of
+  friction, and their number. Collective. Errors: PETSC_ERR_ORDER before SamGradientCompute().
   SamGradientDescribe - writes the number, and the relative changes of it by relative changes of the parameters, the
-  largest first: "energy 2.04e-05 J; by 1 % more friction -1.2 %, load_tx +3.1 %". Values of all steps of a load change
-  together. Collective. Errors: PETSC_ERR_ORDER before SamGradientCompute().
+  largest first: "energy 2.04e-05 J; by 1 % more friction -1.2 +- 0.1 %, load_tx +3.1 %". Not collective.
   SamGradientUnit - returns the unit of the number that was computed last. Not collective.
 */
-PETSC_INTERN PetscErrorCode SamGradientDescribe(SamGradient gradient, char text[], size_t size);
+#define SAM_GRADIENT_SHARES 64
+typedef struct {
+  const char *name; /* borrowed */
+  double      share, error;
+} SamGradientShare;
+PETSC_INTERN PetscErrorCode SamGradientGetShares(SamGradient gradient, SamGradientShare shares[SAM_GRADIENT_SHARES],
+                                                 PetscInt *count);
+PETSC_INTERN PetscErrorCode SamGradientDescribe(SamGradient gradient, PetscInt count, const SamGradientShare shares[],
+                                                char text[], size_t size);
 PETSC_INTERN const char    *SamGradientUnit(SamGradient gradient);
 
 #endif

@@ -106,9 +106,10 @@ PETSC_INTERN PetscErrorCode SamOutputWriteWarnings(SamOutput output, PetscInt co
 /*
   SamOutputWriteGradient - writes all waiting steps, then what a gradient has found, into the settings' group
   /gradient/NAME: the wanted derivatives by gap and friction in each cell, by each step's loads, and numbers as
-  attributes. Collective. Errors: as SamOutputWriteStep().
+  attributes, and the known errors of so many shares, relative to these. Collective. Errors: as SamOutputWriteStep().
 */
-PETSC_INTERN PetscErrorCode SamOutputWriteGradient(SamOutput output, SamGradient gradient, const char name[]);
+PETSC_INTERN PetscErrorCode SamOutputWriteGradient(SamOutput output, SamGradient gradient, const char name[],
+                                                   PetscInt count, const SamGradientShare shares[]);
 /*
   SamOutputGetSaved - gets the number of load steps in the file, the number of steps with fields, and the time (s) of
   the last step with fields, -infinity if there is none; NULL for an unwanted output. Not collective.

@@ -52,6 +52,7 @@ typedef struct {
   PetscBool   replaced;              /* true: it replaces an older file of that name */
   char        size[128];             /* size of the results, in words */
   const char *companions;            /* the companion runs, in words; NULL: none */
+  PetscBool   gradients;             /* true: derivatives are computed */
   double      share;                 /* time that they add, or would, relative to that of the run; 0: there are none */
   double      seconds;               /* rough time of a step, s; 0: not known */
   int         cores;                 /* of a node, for which times on other ranks are predicted; 0: they are not */

@@ -1,6 +1,6 @@
 """Derivatives of a number of a run by all of its parameters: of Contact.gradient(), and of /gradient of a file."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Optional, Union
 
 import h5py
@@ -27,6 +27,8 @@ class Gradient:
     borders: int  # cells on the border of their set in some step; with any, the gradient is one-sided
     residual: float  # largest relative residual of the systems, which are solved to rtol
     unit: str  # of the number
+    # {name: error} with -errors companion: relative, of the derivative by all cells or steps together
+    errors: dict = field(default_factory=dict)
 
     def keys(self) -> list[str]:
         """The names of the parameters by which there are derivatives."""
@@ -70,10 +72,9 @@ def _one(name: str, of: h5py.Group) -> Optional[Gradient]:
     numbers = {key: float(value) for key, value in of.attrs.items() if key != "units"}
     numbers |= {key: data[:] for key, data in of.items() if data.ndim == 1}
     gap, friction = (of[key][:] if key in of else None for key in ("gap", "friction"))
-    borders = int(numbers.pop("borders"))
-    return Gradient(
-        name, numbers.pop("value"), gap, friction, numbers, borders, numbers.pop("residual"), _text(of.attrs["units"])
-    )
+    errors = {key[: -len("_error")]: numbers.pop(key) for key in list(numbers) if key.endswith("_error")}
+    borders, residual, unit = int(numbers.pop("borders")), numbers.pop("residual"), _text(of.attrs["units"])
+    return Gradient(name, numbers.pop("value"), gap, friction, numbers, borders, residual, unit, errors)
 
 
 def read(group: Optional[h5py.Group], closed: bool = True) -> dict[str, Gradient]:

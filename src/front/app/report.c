@@ -151,6 +151,8 @@ PetscErrorCode SamReportBanner(SamReport r, const SamSetup *setup, const double 
   if (start->companions)
     PetscCall(PetscPrintf(r->comm, "  %-10s  by runs %s, which add about %.0f %% of the time\n", "errors",
                           start->companions, 100 * start->share));
+  if (start->gradients && !start->companions)
+    PetscCall(PetscPrintf(r->comm, "  %-10s  of the derivatives unknown; -errors companion finds them\n", "errors"));
   if (start->seconds > 0)
     PetscCall(PetscPrintf(r->comm, "  %-10s  roughly %.2g s a step, %.2g s in all%s; nothing is solved (-dry_run)\n",
                           "time", start->seconds, start->seconds * (double)start->steps,

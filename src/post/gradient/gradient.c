@@ -547,10 +547,9 @@ PetscErrorCode SamGradientCompute(SamGradient g, const SamGradientGoal *goal, co
   d->count = g->rows > 0 ? g->rows : g->count;
   PetscCall(PetscCalloc3(d->count, &d->load, d->count, &d->rigid, d->count, &d->bulk));
   (void)snprintf(d->name, sizeof(d->name), "%s", goal->name);
-  (void)snprintf(d->unit, sizeof(d->unit), "%s",
-                 objective->unit_of_row && SamGridIsRow(SamContactGetGrid(g->contact))
-                   ? objective->unit_of_row
-                   : SamUnitOn(SamContactGetGrid(g->contact), objective->unit));
+  d->unit = objective->unit_of_row && SamGridIsRow(SamContactGetGrid(g->contact))
+              ? objective->unit_of_row
+              : SamUnitOn(SamContactGetGrid(g->contact), objective->unit);
   (void)snprintf(d->of, sizeof(d->of), "%s", of);
   PetscCall(Run(&b, objective));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -624,18 +623,13 @@ PetscErrorCode SamGradientGetNumber(SamGradient g, const char name[], PetscInt s
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* ---- a line of text ---- */
+/* ---- shares ---- */
 
 enum {
   SHARES = 1 + 2 * SAM_COMPONENTS + SAM_GRADIENT_BULKS + SAM_GRADIENT_MODULI + SAM_LAWS + SAM_GAP_PARAMETERS,
   TOLD   = 5
 };
-
-/* A parameter, and the relative change of the number by a relative change of the parameter */
-typedef struct {
-  const char *name;
-  double      share;
-} Share;
+_Static_assert(SHARES <= SAM_GRADIENT_SHARES, "room for all shares");
 
 static PetscErrorCode ShareOfFriction(SamGradient g, double *share)
 {
@@ -658,65 +652,86 @@ static PetscErrorCode ShareOfFriction(SamGradient g, double *share)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Finds the shares of all parameters, those of a history's column together; returns their number. */
-static PetscErrorCode FindShares(SamGradient g, Share shares[SHARES], PetscInt *count)
+/* Adds a share whose error is unknown. */
+static void AddShare(SamGradientShare shares[], PetscInt *count, const char name[], double share)
+{
+  shares[(*count)++] = (SamGradientShare){name, share, NAN};
+}
+
+/* Adds the shares of a load, and of its displacement, over the steps in which each is given. */
+static void AddComponent(SamGradient g, PetscInt c, SamGradientShare shares[], PetscInt *count)
+{
+  const SamDerivatives *d      = &g->found;
+  double                sum[2] = {0, 0};
+
+  for (PetscInt k = 0; k < d->count; k++) {
+    const SamRecord *r = SamGradientOfRow(g, k);
+
+    sum[r->force[c] ? 0 : 1] += r->force[c] ? r->load[c] * d->load[k][c] : r->rigid[c] * d->rigid[k][c];
+  }
+  if (SamChoiceHas(g, d->of, SamComponentNames[c].load)) AddShare(shares, count, SamComponentNames[c].load, sum[0]);
+  if (SamChoiceHas(g, d->of, SamComponentNames[c].rigid)) AddShare(shares, count, SamComponentNames[c].rigid, sum[1]);
+}
+
+PetscErrorCode SamGradientGetShares(SamGradient g, SamGradientShare shares[SAM_GRADIENT_SHARES], PetscInt *count)
 {
   const SamDerivatives *d = &g->found;
   const char           *name;
-  PetscInt              n = 1;
-
-  PetscFunctionBegin;
-  shares[0] = (Share){"friction", 0};
-  if (SamChoiceHas(g, d->of, "friction")) PetscCall(ShareOfFriction(g, &shares[0].share));
-  for (PetscInt c = 0; c < SAM_COMPONENTS; c++) {
-    shares[n]     = (Share){SamComponentNames[c].load, 0};
-    shares[n + 1] = (Share){SamComponentNames[c].rigid, 0};
-    for (PetscInt k = 0; k < d->count; k++) {
-      const SamRecord *r = SamGradientOfRow(g, k);
-
-      if (!SamChoiceHas(g, d->of, shares[r->force[c] ? n : n + 1].name)) continue;
-      shares[r->force[c] ? n : n + 1].share += r->force[c] ? r->load[c] * d->load[k][c] : r->rigid[c] * d->rigid[k][c];
-    }
-    n += 2;
-  }
-  for (PetscInt b = 0; b < SAM_GRADIENT_BULKS; b++, n++) {
-    shares[n] = (Share){SamBulkName(b), 0};
-    for (PetscInt k = 0; k < d->count && SamChoiceHas(g, d->of, shares[n].name); k++)
-      shares[n].share += SamGradientOfRow(g, k)->bulk[b] * d->bulk[k][b];
-  }
-  for (PetscInt k = 0; (name = SamGradientNumber(g, k)); k++) {
-    if (!SamChoiceHas(g, d->of, name)) continue;
-    shares[n].name = name;
-    PetscCall(SamChoiceGetShare(g, name, &shares[n++].share));
-  }
-  *count = n;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode SamGradientDescribe(SamGradient g, char text[], size_t size)
-{
-  const SamDerivatives *d = &g->found;
-  Share                 shares[SHARES];
-  PetscInt              count = 0;
-  size_t                used;
+  double                one;
 
   PetscFunctionBegin;
   PetscCall(CheckFound(g));
-  PetscCall(FindShares(g, shares, &count));
-  used = (size_t)snprintf(text, size, "%s %.6g%s%s", d->name, (double)d->value, strcmp(d->unit, "1") ? " " : "",
-                          strcmp(d->unit, "1") ? d->unit : "");
-  for (PetscInt told = 0; told < TOLD && count > 0; told++) {
-    PetscInt best = 0;
-
-    for (PetscInt k = 1; k < count; k++) /* of equal ones the first, whatever their last digits are */
-      if (fabs(shares[k].share) > 1.001 * fabs(shares[best].share)) best = k;
-    if (!(fabs(shares[best].share) > 1e-6 * fabs((double)d->value)) || used >= size) break;
-    used += (size_t)snprintf(text + used, size - used, "%s %s %+.3g %%", told ? "," : "; by 1 % more",
-                             shares[best].name, shares[best].share / (double)d->value);
-    shares[best].share = 0;
+  *count = 0;
+  if (SamChoiceHas(g, d->of, "friction")) {
+    PetscCall(ShareOfFriction(g, &one));
+    AddShare(shares, count, "friction", one);
   }
-  if (!strstr(text, "; by") && used < size)
-    (void)snprintf(text + used, size - used, "; by the wanted parameters: in the results");
+  for (PetscInt c = 0; c < SAM_COMPONENTS; c++) AddComponent(g, c, shares, count);
+  for (PetscInt b = 0; b < SAM_GRADIENT_BULKS; b++) {
+    if (!SamChoiceHas(g, d->of, SamBulkName(b))) continue;
+    one = 0;
+    for (PetscInt k = 0; k < d->count; k++) one += SamGradientOfRow(g, k)->bulk[b] * d->bulk[k][b];
+    AddShare(shares, count, SamBulkName(b), one);
+  }
+  for (PetscInt k = 0; (name = SamGradientNumber(g, k)); k++) {
+    if (!SamChoiceHas(g, d->of, name)) continue;
+    PetscCall(SamChoiceGetShare(g, name, &one));
+    AddShare(shares, count, name, one);
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Writes a change in per cent, with its error if that is known. */
+static size_t WriteShare(const SamGradientShare *s, double value, const char before[], char text[], size_t size)
+{
+  const double percent = s->share / value, error = fabs(s->error / value);
+
+  if (isnan(error)) return (size_t)snprintf(text, size, "%s %s %+.3g %%", before, s->name, percent);
+  return (size_t)snprintf(text, size, "%s %s %+.3g +- %.2g %%", before, s->name, percent, error);
+}
+
+PetscErrorCode SamGradientDescribe(SamGradient g, PetscInt count, const SamGradientShare shares[], char text[],
+                                   size_t size)
+{
+  const SamDerivatives *d                         = &g->found;
+  const double          value                     = (double)d->value;
+  PetscBool             used[SAM_GRADIENT_SHARES] = {PETSC_FALSE};
+  size_t                at;
+
+  PetscFunctionBegin;
+  at = (size_t)snprintf(text, size, "%s %.6g%s%s", d->name, value, strcmp(d->unit, "1") ? " " : "",
+                        strcmp(d->unit, "1") ? d->unit : "");
+  for (PetscInt told = 0; told < TOLD && at < size; told++) {
+    PetscInt best = -1;
+
+    for (PetscInt k = 0; k < count; k++) /* of equal ones the first, whatever their last digits are */
+      if (!used[k] && (best < 0 || fabs(shares[k].share) > 1.001 * fabs(shares[best].share))) best = k;
+    if (best < 0 || !(fabs(shares[best].share) > 1e-6 * fabs(value))) break;
+    at += WriteShare(&shares[best], value, told ? "," : "; by 1 % more", text + at, size - at);
+    used[best] = PETSC_TRUE;
+  }
+  if (!strstr(text, "; by") && at < size)
+    (void)snprintf(text + at, size - at, "; by the wanted parameters: in the results");
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

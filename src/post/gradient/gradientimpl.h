@@ -60,9 +60,10 @@ typedef struct {
   PetscInt  borders;
   Vec       gap, friction;                                                               /* on the contact's grid */
   double (*load)[SAM_COMPONENTS], (*rigid)[SAM_COMPONENTS], (*bulk)[SAM_GRADIENT_BULKS]; /* of each step */
-  PetscInt count;                                                                        /* of the steps */
-  char     name[96], unit[16];                                                           /* of the number */
-  char     of[SAM_GRADIENT_OF]; /* the wanted parameters, separated by commas; empty: those without further cost */
+  PetscInt    count;                                                                     /* of the steps */
+  char        name[96];                                                                  /* of the number */
+  const char *unit;                                                                      /* likewise; borrowed */
+  char        of[SAM_GRADIENT_OF]; /* the wanted parameters, separated by commas; empty: those without further cost */
 } SamDerivatives;
 
 struct _n_SamGradient {

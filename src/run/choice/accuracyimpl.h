@@ -30,7 +30,7 @@ typedef struct {
   PetscInt           axes;
   PetscInt           few, most; /* cells along the shorter side: of the first grid; most along any side */
   PetscInt           watched;
-  SamWatch           watch[4 * SAM_ERROR_ROWS];
+  SamWatch           watch[4 * SAM_ERROR_TABLE];
   double             seconds, work; /* time of the last trial (s), and its cells times steps */
   double             spent;         /* time of all trials, s */
 } SamTask;

@@ -52,6 +52,7 @@ PetscErrorCode SamCompanionDestroy(SamCompanion *c)
   PetscFunctionBegin;
   if (!c->run) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamLifeDestroy(&c->life));
+  PetscCall(SamGradientDestroy(&c->run->gradient));
   PetscCall(SamStateDestroy(&c->kept));
   PetscCall(SamHistoryDestroy(&c->run->history));
   PetscCall(SamSetupDestroy(&c->run->setup));
@@ -112,18 +113,22 @@ static PetscErrorCode LiveAlone(SamSimulation s, PetscReal cycles, SamLife *life
 {
   const SamContact contact = s->setup.contact;
   const PetscInt   start   = SamLifeOptionsGetStart(&s->plan, s->history);
-  SamLifeCycle     cycle   = {.control = SamSimulationCycleControl, .context = s};
+  SamLifeCycle     cycle   = {.control = SamSimulationCycleControl,
+                              .commits = SamSimulationRecordCycleStep,
+                              .jumps   = SamSimulationRecordJump,
+                              .context = s};
   SamLifeReport    r;
 
   PetscFunctionBegin;
   cycle.steps = s->needs.steps - start;
+  PetscCall(SamSimulationBeginCycles(s));
   PetscCall(SamLifeCreate(contact, &cycle, &s->plan.life, life));
   for (PetscInt k = 0; k < start; k++) {
     const SamControl control = SamHistoryGetStep(s->history, k);
 
     PetscCall(SamContactTry(contact, &control, step));
     if (step->status != SAM_STATUS_CONVERGED) PetscFunctionReturn(PETSC_SUCCESS);
-    PetscCall(SamContactCommit(contact));
+    PetscCall(SamSimulationCommitStep(s, step));
   }
   PetscCall(SamLifeCompute(*life, &r));
   while (r.step.status == SAM_STATUS_CONVERGED && r.cycles < cycles) {

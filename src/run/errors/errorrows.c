@@ -173,8 +173,9 @@ static void FindLimits(SamErrors e, const SamStateNumber *number, SamErrorRow *r
   if (row->grows[SAM_CAUSE_STEPS]) row->of[SAM_CAUSE_STEPS] = PetscMax(1, row->of[SAM_CAUSE_STEPS]);
 }
 
-void SamErrorsAddRow(SamSimulation s, const SamStateNumber *number, const char unit[], double value, double least,
-                     const double run[SAM_RUNS])
+/* Adds a row to the table, with so large an error by the cells, in the unit. */
+static void Add(SamSimulation s, const SamStateNumber *number, const char unit[], double value, double least,
+                const double run[SAM_RUNS], double cells)
 {
   const SamErrors  e     = s->errors;
   const SamDoubts *d     = e->closed;
@@ -190,9 +191,9 @@ void SamErrorsAddRow(SamSimulation s, const SamStateNumber *number, const char u
   }
   for (PetscInt k = 0; k < t->count; k++)
     if (!strcmp(t->row[k].name, number->name)) return; /* the number of a cycle precedes that of its last step */
-  if (t->count == SAM_ERROR_ROWS || !(Magnitude(value, run) > least || (least > 0 && most > 0))) return;
+  if (t->count == SAM_ERROR_TABLE || !(Magnitude(value, run) > least || (least > 0 && most > 0))) return;
   *row                     = (SamErrorRow){.unit = unit, .value = value, .scale = scale};
-  row->cells               = SamErrorsByCells(s, number, value, run) / scale;
+  row->cells               = cells / scale;
   row->of[SAM_CAUSE_CELLS] = row->cells;
   row->of[SAM_CAUSE_STEPS] = e->companion[SAM_RUN_OTHER].run ? SamErrorBySteps(run, e->same) / scale : 0;
   FindLimits(e, number, row);
@@ -206,6 +207,22 @@ void SamErrorsAddRow(SamSimulation s, const SamStateNumber *number, const char u
   for (int k = 0; k < SAM_RUNS; k++) row->run[k] = run[k];
   row->factor = FactorOf(row, row->cause);
   t->count++;
+}
+
+void SamErrorsAddRow(SamSimulation s, const SamStateNumber *number, const char unit[], double value, double least,
+                     const double run[SAM_RUNS])
+{
+  Add(s, number, unit, value, least, run, SamErrorsByCells(s, number, value, run));
+}
+
+void SamErrorsAddDerivative(SamSimulation s, const SamStateNumber *number, double value, double least,
+                            const double run[SAM_RUNS], double *error)
+{
+  const SamErrorTable *t      = &s->errors->table;
+  const PetscInt       before = t->count;
+
+  Add(s, number, number->unit, value, least, run, SamErrorOfDerivative(value, run));
+  *error = t->count > before ? t->row[before].error * t->row[before].scale : NAN;
 }
 
 PetscErrorCode SamErrorsAddNumbers(SamSimulation s, const SamControl *control)

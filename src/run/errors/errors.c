@@ -335,13 +335,20 @@ static PetscErrorCode AddCycle(SamSimulation s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamErrorsEnd(SamSimulation s, const SamControl *last)
+PetscErrorCode SamErrorsAdd(SamSimulation s, const SamControl *last)
 {
   PetscFunctionBegin;
   if (!s->errors) PetscFunctionReturn(PETSC_SUCCESS);
   s->errors->closed = &s->advice.doubts;
   if (s->life) PetscCall(AddCycle(s));
   PetscCall(SamErrorsAddNumbers(s, last));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamErrorsEnd(SamSimulation s)
+{
+  PetscFunctionBegin;
+  if (!s->errors) PetscFunctionReturn(PETSC_SUCCESS);
   if (s->output && s->errors->table.count) PetscCall(SamOutputWriteErrors(s->output, &s->errors->table));
   PetscCall(SamSimulationNotify(s, &(SamSimulationEvent){.kind = SAM_NOTIFY_ERRORS, .errors = &s->errors->table}));
   PetscCall(SamErrorsAddDoubts(s->errors, &s->advice));

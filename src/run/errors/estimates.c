@@ -19,6 +19,13 @@
   an edge (a root of the cell size: 0.71), or no limit: the sum of the differences to come is that of a geometric series
   with this ratio, which has no sum from 1 on. Below a least difference that is the wandering above.
 
+  Derivatives scatter about those of fine grids: each cell that changes its set is a jump, whose size falls faster than
+  the cell size. Half the estimate of a number is taken for them, without the rule above, since differences of such
+  scatter have any ratio. Of 634 derivatives of 58 random problems with errors above 0.5 %
+  (spheres, ellipsoids and pads of 32 to 64 cells, similar and dissimilar; against the mean of two grids of three times
+  finer cells and steps) this covers 88 %, with a median of the ratio of estimate and error of 2.8; the whole estimate
+  covers 96 %, with 5.4.
+
   Steps: the difference between two runs on the same coarse cells, one of which has half as many steps, or twice as
   many.
 */
@@ -41,6 +48,11 @@ double SamErrorOfSeries(double least, double own, const double run[SAM_RUNS])
 
   if (!(ratio > FALLS) || !(fabs(near) > least)) return 0;
   return ratio < 1 ? fabs(near) * ratio / (1 - ratio) : INFINITY;
+}
+
+double SamErrorOfDerivative(double own, const double run[SAM_RUNS])
+{
+  return SamErrorByCells(PETSC_FALSE, own, run) / 2;
 }
 
 double SamErrorBySteps(const double run[SAM_RUNS], SamRunKind same)

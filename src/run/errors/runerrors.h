@@ -14,8 +14,12 @@
     Describe     returns the companion runs in words, NULL without; borrowed
     Read         reads a checkpoint (SamCheckpointRead()) with the companions' states, if it has these
     Record       after the try of step k of the history: lets the companions follow, and sets the errors of its numbers
-    End          after the last step, with these loads: runs the companions of a life, stores and reports the errors of
-                 the last numbers, and warns of large ones; after SamAdviceEnd()
+    Add          after the last step, with these loads: runs the companions of a life, and adds the errors of the last
+                 numbers; after SamAdviceEnd()
+    RecordGradient  begins or ends the record of the companions' steps for gradients, as the simulation does
+    AddGradient  after SamErrorsAdd(): sets the errors of the shares of a gradient, which the simulation has computed,
+                 by those of the companions, and adds them to those of the numbers
+    End          stores and reports the errors, and warns of large ones
 */
 PETSC_INTERN PetscErrorCode SamErrorsReadOptions(SamSimulation simulation, const SamOptions *from);
 PETSC_INTERN PetscErrorCode SamErrorsCreate(SamSimulation simulation);
@@ -23,7 +27,11 @@ PETSC_INTERN PetscErrorCode SamErrorsPrepare(SamSimulation simulation);
 PETSC_INTERN PetscErrorCode SamErrorsRead(SamSimulation simulation, const char filename[], PetscBool sums,
                                           const SamParameters *parameters, PetscInt n, const SamNote notes[]);
 PETSC_INTERN PetscErrorCode SamErrorsRecord(SamSimulation simulation, PetscInt k, const SamStep *step);
-PETSC_INTERN PetscErrorCode SamErrorsEnd(SamSimulation simulation, const SamControl *last);
+PETSC_INTERN PetscErrorCode SamErrorsAdd(SamSimulation simulation, const SamControl *last);
+PETSC_INTERN PetscErrorCode SamErrorsRecordGradient(SamSimulation simulation, PetscBool on);
+PETSC_INTERN PetscErrorCode SamErrorsAddGradient(SamSimulation simulation, const SamGradientGoal *goal, PetscInt count,
+                                                 SamGradientShare shares[]);
+PETSC_INTERN PetscErrorCode SamErrorsEnd(SamSimulation simulation);
 PETSC_INTERN PetscErrorCode SamErrorsDestroy(SamErrors *errors);
 PETSC_INTERN double         SamErrorsShare(SamSimulation simulation);
 PETSC_INTERN const char    *SamErrorsDescribe(SamErrors errors);

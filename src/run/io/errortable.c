@@ -98,8 +98,8 @@ static void WriteTractionError(SamOutput o, const SamErrorTable *t)
 
 PetscErrorCode SamOutputAppendErrors(SamOutput o, const SamErrorTable *t)
 {
-  char   column[TEXTS][SAM_ERROR_ROWS][SAM_ERROR_NAME];
-  double values[NUMBERS][SAM_ERROR_ROWS];
+  char   column[TEXTS][SAM_ERROR_TABLE][SAM_ERROR_NAME];
+  double values[NUMBERS][SAM_ERROR_TABLE];
   hid_t  group;
 
   PetscFunctionBegin;

@@ -1,6 +1,7 @@
 /* The group /gradient of a results file: a number of the run, and its derivatives by all parameters. */
 #include "ioimpl.h"
 #include <petsam/private/contact.h>
+#include <math.h>
 
 static PetscErrorCode WriteNumber(SamOutput o, hid_t group, SamGradient g, const char name[])
 {
@@ -90,7 +91,21 @@ PetscErrorCode SamOutputCreateGradients(SamOutput o)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamOutputAppendGradient(SamOutput o, SamGradient g, const char name[])
+/* Writes the known errors, relative to the shares, as attributes. */
+static void WriteErrors(SamOutput o, hid_t group, PetscInt count, const SamGradientShare shares[])
+{
+  for (PetscInt k = 0; k < count; k++) {
+    const double error = fabs(shares[k].error / shares[k].share);
+    char         name[64];
+
+    if (!isfinite(error)) continue;
+    (void)snprintf(name, sizeof(name), "%s_error", shares[k].name);
+    SamFileWriteAttribute(o->f, group, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, 1, &error);
+  }
+}
+
+PetscErrorCode SamOutputAppendGradient(SamOutput o, SamGradient g, const char name[], PetscInt count,
+                                       const SamGradientShare shares[])
 {
   static const char *const numbers[] = {"value", "residual", "borders"};
   const char              *one;
@@ -104,6 +119,7 @@ PetscErrorCode SamOutputAppendGradient(SamOutput o, SamGradient g, const char na
   for (size_t k = 0; k < sizeof(numbers) / sizeof(numbers[0]); k++) PetscCall(WriteNumber(o, group, g, numbers[k]));
   for (PetscInt k = 0; (one = SamGradientNumber(g, k)); k++)
     if (SamGradientHas(g, one)) PetscCall(WriteNumber(o, group, g, one));
+  WriteErrors(o, group, count, shares);
   PetscCall(WriteFields(o, group, g));
   (void)SamFileNote(o->f, H5Gclose(group));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -75,7 +75,8 @@ PETSC_INTERN PetscErrorCode SamOutputAppendErrors(SamOutput output, const SamErr
 PETSC_INTERN PetscErrorCode SamOutputAppendWarnings(SamOutput output, PetscInt count,
                                                     const char rows[][SAM_WARNING_TEXT]);
 PETSC_INTERN PetscErrorCode SamOutputCreateGradients(SamOutput output);
-PETSC_INTERN PetscErrorCode SamOutputAppendGradient(SamOutput output, SamGradient gradient, const char name[]);
+PETSC_INTERN PetscErrorCode SamOutputAppendGradient(SamOutput output, SamGradient gradient, const char name[],
+                                                    PetscInt count, const SamGradientShare shares[]);
 
 #define SAM_IDENTITY "results-%016" PRIx64 /* identity of a file, as text */
 

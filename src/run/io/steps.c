@@ -321,11 +321,12 @@ PetscErrorCode SamOutputWriteWarnings(SamOutput o, PetscInt count, const char te
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamOutputWriteGradient(SamOutput o, SamGradient g, const char name[])
+PetscErrorCode SamOutputWriteGradient(SamOutput o, SamGradient g, const char name[], PetscInt count,
+                                      const SamGradientShare shares[])
 {
   PetscFunctionBegin;
   PetscCall(BeginApart(o, 2 * (off_t)sizeof(double) * (off_t)o->grid->nx * (off_t)o->grid->ny));
-  PetscCall(SamOutputAppendGradient(o, g, name));
+  PetscCall(SamOutputAppendGradient(o, g, name, count, shares));
   PetscCall(End(o));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

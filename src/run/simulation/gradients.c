@@ -109,12 +109,6 @@ static PetscErrorCode Check(SamSimulation s, SamGradientGoal *goal)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Returns the number of steps that numbers may be of: those of a history, or of its cycle in a wear simulation. */
-static PetscInt CountSteps(SamSimulation s)
-{
-  return s->plan.cycles > 0 ? s->needs.steps - SamLifeOptionsGetStart(&s->plan, s->history) : s->needs.steps;
-}
-
 /* Rejects friction that changes, before any step. */
 static PetscErrorCode CheckFriction(SamSimulation s)
 {
@@ -132,17 +126,9 @@ static PetscErrorCode CheckFriction(SamSimulation s)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamSimulationBeginCycles(SamSimulation s)
-{
-  PetscFunctionBegin;
-  if (s->gradient && s->plan.cycles > 0)
-    PetscCall(SamGradientBeginLife(s->gradient, s->needs.steps, CountSteps(s), &s->plan.life));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 PetscErrorCode SamSimulationBeginGradients(SamSimulation s)
 {
-  const PetscInt count = CountSteps(s);
+  const PetscInt count = SamSimulationCountSteps(s);
   const PetscInt first = s->gradients.steps[0], last = s->gradients.steps[1], end = last ? last : count;
 
   PetscFunctionBegin;
@@ -154,22 +140,27 @@ PetscErrorCode SamSimulationBeginGradients(SamSimulation s)
              first, last, count);
   PetscCall(CheckFriction(s));
   PetscCall(SamSimulationRecordGradient(s, PETSC_TRUE));
+  PetscCall(SamErrorsRecordGradient(s, PETSC_TRUE));
   PetscCall(SamSimulationBeginCycles(s));
   PetscCall(ForEach(s, Check));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Computes the gradient of a number, writes it and tells of it. */
+/* Computes the gradient of a number with its errors, writes it and tells of it. */
 static PetscErrorCode End(SamSimulation s, SamGradientGoal *goal)
 {
-  const PetscInt steps[2] = {s->gradients.steps[0] - 1, s->gradients.steps[1] - 1};
-  PetscReal      borders;
-  char           text[SAM_MESSAGE];
+  const PetscInt   steps[2] = {s->gradients.steps[0] - 1, s->gradients.steps[1] - 1};
+  SamGradientShare shares[SAM_GRADIENT_SHARES];
+  PetscReal        borders;
+  PetscInt         count;
+  char             text[SAM_MESSAGE];
 
   PetscFunctionBegin;
   PetscCall(SamGradientCompute(s->gradient, goal, steps, s->gradients.of, s->gradients.rtol));
-  PetscCall(SamOutputWriteGradient(s->output, s->gradient, goal->name));
-  PetscCall(SamGradientDescribe(s->gradient, text, sizeof(text)));
+  PetscCall(SamGradientGetShares(s->gradient, shares, &count));
+  PetscCall(SamErrorsAddGradient(s, goal, count, shares));
+  if (s->output) PetscCall(SamOutputWriteGradient(s->output, s->gradient, goal->name, count, shares));
+  PetscCall(SamGradientDescribe(s->gradient, count, shares, text, sizeof(text)));
   PetscCall(SamSimulationNotify(s, &(SamSimulationEvent){.kind = SAM_NOTIFY_GRADIENT, .text = text}));
   PetscCall(SamGradientGetNumber(s->gradient, "borders", 0, &borders));
   (void)snprintf(text, sizeof(text),
@@ -183,13 +174,14 @@ static PetscErrorCode End(SamSimulation s, SamGradientGoal *goal)
 PetscErrorCode SamSimulationEndGradients(SamSimulation s)
 {
   PetscFunctionBegin;
-  if (!s->gradients.count || !s->output) PetscFunctionReturn(PETSC_SUCCESS);
+  if (!s->gradients.count || !(s->output || s->errors)) PetscFunctionReturn(PETSC_SUCCESS);
   if (s->point.worst != SAM_STATUS_CONVERGED || s->stopped) {
     PetscCall(SamSimulationWarn(s, "the gradients are not computed: they need all steps, in one run", "gradient"));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
   PetscCall(ForEach(s, End));
   PetscCall(SamSimulationRecordGradient(s, PETSC_FALSE));
+  PetscCall(SamErrorsRecordGradient(s, PETSC_FALSE));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -199,7 +191,6 @@ PetscErrorCode SamSimulationRecordGradient(SamSimulation s, PetscBool on)
   PetscCheck(!on || !SamContactHasStep(s->setup.contact, SAM_COMMITTED), s->comm, PETSC_ERR_ORDER,
              "the gradient: the contact has steps already: begin before its first step, or after a reset");
   PetscCall(SamGradientDestroy(&s->gradient));
-  if (on) PetscCall(SamGradientCreate(s->setup.contact, s->setup.gap, &s->gradient));
-  if (on) SamGradientSetMemory(s->gradient, s->gradients.memory);
+  if (on) PetscCall(SamSimulationCreateGradient(s, s->setup.gap, s->gradients.memory));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -67,26 +67,6 @@ static PetscErrorCode WriteStep(void *context, PetscInt step, PetscReal cycles, 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Records a step, or a part of a jump, for gradients. */
-static PetscErrorCode RecordStep(void *context, PetscInt step, SamLifePlace place)
-{
-  const SamSimulation s = (SamSimulation)context;
-
-  PetscFunctionBegin;
-  if (s->gradient)
-    PetscCall(SamGradientRecord(s->gradient, SamLifeOptionsGetStart(&s->plan, s->history) + step, place));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode RecordJump(void *context, const SamLifePart *part)
-{
-  const SamSimulation s = (SamSimulation)context;
-
-  PetscFunctionBegin;
-  if (s->gradient) PetscCall(SamGradientRecordJump(s->gradient, part));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* ---- the life ---- */
 
 static PetscErrorCode TellMessage(SamSimulation s, const char where[], const SamStep *step)
@@ -325,8 +305,8 @@ PetscErrorCode SamSimulationCreateLife(SamSimulation s)
 {
   SamLifeCycle       cycle = {.control = SamSimulationCycleControl,
                               .solved  = WriteStep,
-                              .commits = RecordStep,
-                              .jumps   = RecordJump,
+                              .commits = SamSimulationRecordCycleStep,
+                              .jumps   = SamSimulationRecordJump,
                               .context = s};
   SamOutputSettings *set   = &s->output_settings;
 

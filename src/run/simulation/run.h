@@ -20,10 +20,8 @@ PETSC_INTERN PetscErrorCode SamSimulationForecast(SamSimulation simulation, char
   records steps at the call of another program. SamSimulationBeginGradients - begins to record the steps,
   if there are any. SamSimulationEndGradients - computes them after the last step, writes and tells them (gradients.c).
   SamSimulationForgetGradients - frees the names and what has been found by them. Not collective.
-  SamSimulationBeginCycles - begins the record of a wear simulation, if steps are recorded and it is one. Collective.
   Errors: SAM_ERR_USER.
 */
-PETSC_INTERN PetscErrorCode SamSimulationBeginCycles(SamSimulation simulation);
 PETSC_INTERN PetscErrorCode SamSimulationReadGradientMemory(SamSimulation simulation, const SamOptions *from);
 PETSC_INTERN PetscErrorCode SamSimulationReadGradients(SamSimulation simulation, const SamOptions *from);
 PETSC_INTERN PetscErrorCode SamSimulationForgetGradients(SamSimulation simulation);

@@ -132,6 +132,7 @@ static PetscErrorCode Begin(SamSimulation s, PetscBool writes)
   start->steps      = s->needs.steps;
   start->cyclic     = s->plan.cycles > 0 ? PETSC_TRUE : PETSC_FALSE;
   start->companions = SamErrorsDescribe(s->errors);
+  start->gradients  = s->gradients.count > 0 ? PETSC_TRUE : PETSC_FALSE;
   start->share      = SamErrorsShare(s);
   for (PetscInt k = 0; k < s->needs.steps; k = SamHistoryNextEnd(s->history, k)) {
     SamControl control;
@@ -273,20 +274,22 @@ static PetscErrorCode SolveSteps(SamSimulation s)
 }
 
 /*
-  Tells the errors of the last numbers. A run that stops for the time being has them as far as it has come; a life has
+  Computes the gradients, and tells the errors of them and of the last numbers. A run that stops for the time being has
+  those of the numbers as far as it has come; a life has
   not, since its companions live as long as it does.
 */
 static PetscErrorCode EndErrors(SamSimulation s)
 {
-  SamControl last;
+  const PetscBool known = s->point.worst == SAM_STATUS_CONVERGED && !(s->stopped && s->life) ? PETSC_TRUE : PETSC_FALSE;
+  SamControl      last;
 
   PetscFunctionBegin;
-  if (s->point.worst == SAM_STATUS_CONVERGED && !(s->stopped && s->life)) {
+  if (known) {
     last = SamHistoryGetStep(s->history, (s->life ? s->needs.steps : s->point.steps) - 1);
-    PetscCall(SamErrorsEnd(s, &last));
-  } else {
-    PetscCall(SamErrorsLose(s, "an earlier history ended before its last step"));
+    PetscCall(SamErrorsAdd(s, &last));
   }
+  PetscCall(SamSimulationEndGradients(s));
+  PetscCall(known ? SamErrorsEnd(s) : SamErrorsLose(s, "an earlier history ended before its last step"));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -307,7 +310,6 @@ static PetscErrorCode RunAll(SamSimulation s)
   if (s->point.worst == SAM_STATUS_CONVERGED) PetscCall(SamAdviceEnd(&s->advice, &slip));
   if (slip) PetscCall(SamSimulationNotify(s, &(SamSimulationEvent){.kind = SAM_NOTIFY_SLIP, .slip = slip}));
   PetscCall(EndErrors(s));
-  PetscCall(SamSimulationEndGradients(s));
   if (!s->untold) PetscCall(SamAdviceTell(&s->advice));
   PetscCall(Finish(s));
   PetscFunctionReturn(PETSC_SUCCESS);

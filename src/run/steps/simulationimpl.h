@@ -125,5 +125,21 @@ PETSC_INTERN PetscErrorCode SamSimulationTry(SamSimulation simulation, PetscInt 
 PETSC_INTERN PetscErrorCode SamSimulationCycleControl(void *simulation, PetscInt step, PetscReal cycles,
                                                       SamControl *control);
 PETSC_INTERN PetscErrorCode SamSimulationAdviseEdge(SamSimulation simulation, const SamControl *control, SamStep *step);
+/*
+  The record for gradients (recording.c).
+    CountSteps       returns the number of steps that numbers may be of: those of a history, or of its cycle in a wear
+                     simulation. Not collective.
+    CreateGradient   begins the record of all steps to come, with this shape of the gap, which is borrowed, and so many
+                     bytes (SamGradientSetMemory())
+    BeginCycles      begins that of a wear simulation, if steps are recorded and it is one
+    RecordCycleStep  records a step of a cycle, RecordJump a part of a jump, if steps are recorded: functions of
+                     SamLifeCycle whose context is the simulation
+  All but the first are collective. Errors: SAM_ERR_USER.
+*/
+PETSC_INTERN PetscInt       SamSimulationCountSteps(SamSimulation simulation);
+PETSC_INTERN PetscErrorCode SamSimulationCreateGradient(SamSimulation simulation, SamGap shape, PetscReal memory);
+PETSC_INTERN PetscErrorCode SamSimulationBeginCycles(SamSimulation simulation);
+PETSC_INTERN PetscErrorCode SamSimulationRecordCycleStep(void *simulation, PetscInt step, SamLifePlace place);
+PETSC_INTERN PetscErrorCode SamSimulationRecordJump(void *simulation, const SamLifePart *part);
 
 #endif

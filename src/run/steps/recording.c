@@ -1,0 +1,43 @@
+/* The record of steps and jumps for gradients: of a simulation, and of its companions. */
+#include "simulationimpl.h"
+
+PetscInt SamSimulationCountSteps(SamSimulation s)
+{
+  return s->plan.cycles > 0 ? s->needs.steps - SamLifeOptionsGetStart(&s->plan, s->history) : s->needs.steps;
+}
+
+PetscErrorCode SamSimulationCreateGradient(SamSimulation s, SamGap shape, PetscReal memory)
+{
+  PetscFunctionBegin;
+  PetscCall(SamGradientDestroy(&s->gradient));
+  PetscCall(SamGradientCreate(s->setup.contact, shape, &s->gradient));
+  SamGradientSetMemory(s->gradient, memory);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSimulationBeginCycles(SamSimulation s)
+{
+  PetscFunctionBegin;
+  if (s->gradient && s->plan.cycles > 0)
+    PetscCall(SamGradientBeginLife(s->gradient, s->needs.steps, SamSimulationCountSteps(s), &s->plan.life));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSimulationRecordCycleStep(void *context, PetscInt step, SamLifePlace place)
+{
+  const SamSimulation s = (SamSimulation)context;
+
+  PetscFunctionBegin;
+  if (s->gradient)
+    PetscCall(SamGradientRecord(s->gradient, SamLifeOptionsGetStart(&s->plan, s->history) + step, place));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSimulationRecordJump(void *context, const SamLifePart *part)
+{
+  const SamSimulation s = (SamSimulation)context;
+
+  PetscFunctionBegin;
+  if (s->gradient) PetscCall(SamGradientRecordJump(s->gradient, part));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
