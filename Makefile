@@ -1,10 +1,11 @@
 # petsam: build, test, install. `make help` lists the targets.
 #
 # Needs PETSc (3.18 or later), FFTW with MPI, parallel HDF5, MPI; CMocka for the tests.
-# PETSC_DIR and PETSC_ARCH choose a PETSc other than the system's. OPT sets the optimisation flags.
+# PETSC_DIR and PETSC_ARCH choose a PETSc other than the system's. OPT sets the optimisation flags: OPT="-O3 -g" is for a
+# debugger, as -g takes a sixth of the build's time.
 
 PKG_CONFIG ?= pkg-config
-OPT        ?= -O3 -g
+OPT        ?= -O3
 WERROR     ?=
 READELF    ?= readelf
 # within the shared library, calls go straight to its own functions
@@ -158,12 +159,13 @@ $(B)/peers/done: tests/bench/requirements.txt
 	    { echo "peers: no $$package: aspher needs g++ and libeigen3-dev" >&2; failed=1; }; \
 	done < $<; [ -n "$$failed" ] || touch $@
 
-# the scripts' Python environment, from PyPI, made again when its list changes; it finds the package in scripts/
+# the scripts' Python environment, from PyPI, made again when its list changes; it finds the package in scripts/. Python
+# compiles a module when it is first used: to compile all takes half of pip's time
 venv: $(B)/venv/done ## make the Python environment of the scripts
 $(B)/venv/done: scripts/requirements.txt
 	@mkdir -p $(B)
 	$(PYTHON) -m venv $(B)/venv
-	$(B)/venv/bin/python -m pip install -q --disable-pip-version-check -r $<
+	$(B)/venv/bin/python -m pip install -q --disable-pip-version-check --no-compile --prefer-binary -r $<
 	@echo '$(CURDIR)/scripts' > $$($(B)/venv/bin/python -c 'import sysconfig; print(sysconfig.get_path("purelib"))')/petsam.pth
 	touch $@
 

@@ -1,7 +1,7 @@
 """Compare the sphere example's results with Hertz, Cattaneo-Mindlin and Lubkin.
 
-Reads the HDF5 files that examples/sphere/run.sh writes to a directory, takes the last saved step of each,
-draws pressure.png, cattaneo.png, slip.png, torsion.png and overview.png (the four in one), and prints the
+Reads the HDF5 files of all load levels that examples/sphere/run.sh wrote to a directory, takes the last saved step
+of each, draws pressure.png, cattaneo.png, slip.png, torsion.png and overview.png (the four in one), and prints the
 error norms. The closed-form solutions get their material, load and radius from the files and are evaluated at
 the cell centres.
 
@@ -18,14 +18,14 @@ import numpy as np
 
 import petsam
 from petsam.closed import Spheres
+from petsam.core.errors import Missing
 from petsam.plot.style import frame, note, plt, points, save, thinned, tint
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))  # what the examples share
 import comparison  # noqa: E402
 from comparison import relative_l2  # noqa: E402
 
-LEVELS = ("0.10", "0.30", "0.50", "0.70", "0.90", "0.95")
-LEVELS_EXACT = ("0.30", "0.60", "0.90")
+LEVELS = (0.10, 0.30, 0.50, 0.70, 0.90, 0.95)  # of the scale of colours
 TINT = tint(1, 6)  # of what has no load level
 POINTS_ON_LINE = 40
 
@@ -120,7 +120,7 @@ def torsion_errors(case):
 
 def colour(level):
     """Colour of a load level in (0, 1)."""
-    return tint(np.interp(level, [float(name) for name in LEVELS], range(len(LEVELS))), len(LEVELS))
+    return tint(np.interp(level, LEVELS, range(len(LEVELS))), len(LEVELS))
 
 
 def points_of(case, field, low, high, margin=1.12):
@@ -203,14 +203,22 @@ def figure(directory, name, panels, text, share=False):
 # ---------------------------------------------------------------- program
 
 
+def levels(kind, directory, name):
+    """The cases of all load levels in the directory, from the lowest."""
+    files = list(Path(directory).glob(name + "*.h5"))
+    if not files:
+        raise Missing(f"{directory}: no {name}*.h5")
+    return sorted((kind(directory, file.stem) for file in files), key=lambda case: case.level)
+
+
 class Comparison:
     """All results of a directory."""
 
     def __init__(self, directory):
         self.hertz = Case(directory, "hertz")
-        self.cattaneo = [Cattaneo(directory, "cattaneo_nu0.3_t" + level) for level in LEVELS]
-        self.exact = [Cattaneo(directory, "cattaneo_nu0_t" + level) for level in LEVELS_EXACT]
-        self.torsion = [Torsion(directory, "torsion_m" + level) for level in LEVELS]
+        self.cattaneo = levels(Cattaneo, directory, "cattaneo_nu0.3_t")
+        self.exact = levels(Cattaneo, directory, "cattaneo_nu0_t")
+        self.torsion = levels(Torsion, directory, "torsion_m")
         self.numbers = {
             "hertz": hertz_errors(self.hertz),
             "cattaneo": [cattaneo_errors(case) for case in self.cattaneo + self.exact],

@@ -7,6 +7,7 @@
 #   PETSAM   the program              (build/bin/petsam of the repository)
 #   NP       MPI ranks                (2)
 #   GRID_N   cells in each direction  (512)
+#   LEVELS   T_x/(mu N) and M_z/M_lim, as in "0.30 0.90"  (0.10 to 0.95; with nu = 0: 0.30 0.60 0.90)
 #   OUT      results and figures, relative to the repository's root  (build/sphere)
 #   PYTHON   a Python with scripts/requirements.txt  (build/venv/bin/python of the repository)
 #   MPIRUN   the MPI launcher         (mpirun)
@@ -18,11 +19,11 @@ default_n=512
 # shellcheck source=examples/common.sh
 . "$here/../common.sh"
 
-# Limits and levels of Table 1: mu N in N, 3 pi/16 mu N a in N m. figures.py expects these levels.
+# Limits and levels of Table 1: mu N in N, 3 pi/16 mu N a in N m.
 force_limit=100
 torque_limit=51.0257e-3
-levels="0.10 0.30 0.50 0.70 0.90 0.95"
-levels_exact="0.30 0.60 0.90"
+levels=${LEVELS:-0.10 0.30 0.50 0.70 0.90 0.95}
+levels_exact=${LEVELS:-0.30 0.60 0.90}
 # nu = 0 and E/(1 - nu^2) of Table 1's steel: same E*, so the same p0 and a.
 young_exact=230.76923076923077e9
 
@@ -37,6 +38,8 @@ solve() {
     [ "$status" -eq 0 ] || fail "case $name failed with exit code $status"
 }
 
+# figures.py draws all levels in the folder
+rm -f "$out"/cattaneo_nu*_t*.h5 "$out"/torsion_m*.h5
 solve hertz hertz
 for level in $levels; do
     solve cattaneo "cattaneo_nu0.3_t$level" -load_tx "$(evaluate "$level * $force_limit")"

@@ -2,8 +2,8 @@
 # Builds the libraries that the wheel carries into a folder: FFTW and HDF5 from Debian's sources, PETSc from PyPI's,
 # against PyPI's MPICH, with netlib's BLAS and LAPACK from PyPI. The compiler, bin/zig-cc in the folder, is PyPI's zig: it
 # links with the C library of older systems, so that the wheel runs on clusters. Called by `make wheel`, it builds each
-# library once; after an interruption it continues with the one that was not finished. OMP_NUM_THREADS=1 builds with one
-# process at a time.
+# library once, those that do not need each other at a time; after an interruption it continues with what was not finished.
+# OMP_NUM_THREADS=1 builds with one process at a time.
 #
 #   scripts/packaging/wheel-libraries.sh build/wheel/libraries
 set -eu
@@ -23,21 +23,39 @@ jobs=-j$(nproc)
 steps=$prefix/steps-glibc-$glibc
 mkdir -p "$steps"
 
-# runs a function in the folder of sources, unless an earlier call of this script has finished it
-once() {
+# runs a function in the folder of sources, unless an earlier call of this script has finished it; prints its seconds
+once() (
   mark=$steps/$(echo "$*" | tr -d ' ')
-  [ ! -e "$mark" ] || return 0
+  [ ! -e "$mark" ] || exit 0
   echo "wheel-libraries.sh: $*"
+  began=$(date +%s)
+  log=$mark.log
   mkdir -p "$prefix/src"
   cd "$prefix/src"
   "$@"
+  echo "wheel-libraries.sh: $*: $(($(date +%s) - began)) s"
   touch "$mark"
+)
+
+# at_a_time NAME...: runs functions beside each other, or one after the other with one process
+at_a_time() {
+  processes=
+  for name in "$@"; do
+    once "$name" &
+    processes="$processes $!"
+    [ "$(nproc)" -gt 1 ] || wait $!
+  done
+  failed=
+  for process in $processes; do
+    wait "$process" || failed=yes
+  done
+  [ -z "$failed" ] || exit 1
 }
 
 # quiet unless it fails
 run() {
-  "$@" >"$prefix/log.txt" 2>&1 || {
-    tail -n 40 "$prefix/log.txt" >&2
+  "$@" >"$log" 2>&1 || {
+    tail -n 40 "$log" >&2
     echo "wheel-libraries.sh: failed: $*" >&2
     exit 1
   }
@@ -103,13 +121,25 @@ zlib() {
   ln -sf "/usr/lib/$(gcc -print-multiarch)/libz.so.1" "$prefix/lib/libz.so"
 }
 
+# with instructions of all processors of x86-64 (SSE2) and of those since 2013 (AVX2): a third set, AVX, is compiled as long
 fftw() {
   mkdir -p "fftw3/b$1"
   cd "fftw3/b$1"
   run ../configure --prefix="$prefix" --libdir="$prefix/lib" --enable-mpi --enable-shared --disable-static \
-    --disable-fortran --disable-doc "$1" --enable-sse2 --enable-avx --enable-avx2 CC="$MPICH_CC" MPICC=mpicc \
+    --disable-fortran --disable-doc "$1" --enable-sse2 --enable-avx2 CC="$MPICH_CC" MPICC=mpicc \
     CFLAGS="-O3 -fomit-frame-pointer"
-  run make "$jobs" install
+  run make "$jobs"
+}
+double() {
+  fftw --disable-float
+}
+single() {
+  fftw --enable-float
+}
+# one after the other, as both have the same header
+install_fftw() {
+  run make -C fftw3/b--disable-float install
+  run make -C fftw3/b--enable-float install
 }
 
 hdf5() {
@@ -149,9 +179,7 @@ once tools
 once sources
 once blas
 once zlib
-once fftw --disable-float
-once fftw --enable-float
-once hdf5
-once petsc
+at_a_time petsc double single hdf5
+once install_fftw
 once licenses
 rm -rf "$prefix/src" "$prefix/zig"

@@ -1,5 +1,6 @@
 """`make install` puts in place what a user of the program and of the library needs, and it works from there."""
 
+import json
 import os
 import re
 import subprocess
@@ -214,6 +215,7 @@ def test_installed_example_runs_from_anywhere(prefix, tmp_path):
         **environment(),
         "GRID_N": "48",
         "NP": "1",
+        "LEVELS": "0.30 0.9",
         "PYTHON": sys.executable,
         "MPIRUN": os.environ.get("MPIRUN", "mpirun"),
     }
@@ -221,6 +223,8 @@ def test_installed_example_runs_from_anywhere(prefix, tmp_path):
     finished([str(prefix / "share/petsam/examples/sphere/run.sh")], cwd=tmp_path, env=env)
     assert any(path.suffix == ".png" for path in (tmp_path / "sphere").iterdir())
     assert Results(tmp_path / "sphere" / "hertz.h5").saved == 1
+    drawn = json.loads((tmp_path / "sphere" / "errors.json").read_text())["torsion"]
+    assert [case["torque_ratio"] for case in drawn] == pytest.approx([0.3, 0.9], rel=1e-5)
 
 
 def test_what_the_manual_says_is_installed_is(prefix):

@@ -75,6 +75,16 @@ def test_the_script_of_the_wheels_libraries_can_be_read_by_the_shell():
     assert valid((FOLDER / "wheel-libraries.sh").read_text())
 
 
+def test_the_job_of_the_wheel_tries_all_Pythons_that_the_package_takes():
+    job = yaml.safe_load((FOLDER / "wheel-job.yml").read_text())
+    pythons = job["jobs"]["try"]["strategy"]["matrix"]["python"]
+    oldest = tomllib.loads((ROOT / "scripts/pyproject.toml").read_text())["project"]["requires-python"]
+    assert oldest == f">={pythons[0]}" and pythons[-1] == "3.14" and len(pythons) == 6
+    lines = [step["run"] for part in job["jobs"].values() for step in part["steps"] if "run" in step]
+    assert lines and all(valid(re.sub(r"\${{.*?}}", "word", line)) for line in lines)
+    assert "make wheel" in " ".join(lines).replace('-j"$(nproc)" ', "")
+
+
 def test_containers_are_built_from_files_that_exist():
     text = (FOLDER / "Containerfile").read_text()
     build, run = text.replace("\\\n", "").split("\nFROM ")[1:]
