@@ -52,7 +52,7 @@ PetscErrorCode SamCompanionDestroy(SamCompanion *c)
   PetscFunctionBegin;
   if (!c->run) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamLifeDestroy(&c->life));
-  PetscCall(SamGradientDestroy(&c->run->gradient));
+  PetscCall(SamSimulationEndRecord(c->run));
   PetscCall(SamStateDestroy(&c->kept));
   PetscCall(SamHistoryDestroy(&c->run->history));
   PetscCall(SamSetupDestroy(&c->run->setup));

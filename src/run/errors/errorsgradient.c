@@ -16,7 +16,7 @@ PetscErrorCode SamErrorsRecordGradient(SamSimulation s, PetscBool on)
     const SamSimulation run = s->errors->companion[c].run;
 
     if (!run) continue;
-    PetscCall(SamGradientDestroy(&run->gradient));
+    PetscCall(SamSimulationEndRecord(run));
     if (on) PetscCall(SamSimulationCreateGradient(run, s->setup.gap, s->gradients.memory));
   }
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -27,7 +27,7 @@ PetscErrorCode SamSimulationDestroy(SamSimulation *simulation)
   if (!s) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SamOutputDestroy(&s->output));
   PetscCall(SamErrorsDestroy(&s->errors));
-  PetscCall(SamGradientDestroy(&s->gradient));
+  PetscCall(SamSimulationEndRecord(s));
   PetscCall(SamSimulationForgetGradients(s));
   PetscCall(PetscFree(s->written));
   PetscCall(SamCheckpointDestroy(&s->checkpoints.files));
@@ -420,7 +420,7 @@ PetscErrorCode SamSimulationReset(SamSimulation s)
   PetscCall(SamContactReset(s->setup.contact));
   PetscCall(SamErrorsReset(s));
   SamSimulationForgetAdvice(s);
-  if (s->gradient) SamGradientForget(s->gradient);
+  SamSimulationForgetRecord(s);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -430,7 +430,7 @@ PetscErrorCode SamSimulationTakeOver(SamSimulation s, SamSimulation from)
   PetscCall(SamContactTakeOver(s->setup.contact, from->setup.contact));
   PetscCall(SamErrorsCopy(s, from));
   SamSimulationForgetAdvice(s);
-  if (s->gradient) SamGradientForget(s->gradient);
+  SamSimulationForgetRecord(s);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -85,6 +85,6 @@ PetscErrorCode SamSimulationLoad(SamSimulation s, const char filename[], const S
   PetscFunctionBegin;
   PetscCall(SamErrorsLoad(s, filename, parameters));
   SamSimulationForgetAdvice(s);
-  if (s->gradient) SamGradientForget(s->gradient);
+  SamSimulationForgetRecord(s);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -9,9 +9,28 @@ PetscInt SamSimulationCountSteps(SamSimulation s)
 PetscErrorCode SamSimulationCreateGradient(SamSimulation s, SamGap shape, PetscReal memory)
 {
   PetscFunctionBegin;
-  PetscCall(SamGradientDestroy(&s->gradient));
+  PetscCall(SamSimulationEndRecord(s));
   PetscCall(SamGradientCreate(s->setup.contact, shape, &s->gradient));
   SamGradientSetMemory(s->gradient, memory);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSimulationEndRecord(SamSimulation s)
+{
+  PetscFunctionBegin;
+  PetscCall(SamGradientDestroy(&s->gradient));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+void SamSimulationForgetRecord(SamSimulation s)
+{
+  if (s->gradient) SamGradientForget(s->gradient);
+}
+
+PetscErrorCode SamSimulationRecordStep(SamSimulation s)
+{
+  PetscFunctionBegin;
+  if (s->gradient) PetscCall(SamGradientRecord(s->gradient, -1, SAM_LIFE_CLOSING));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -131,13 +131,19 @@ PETSC_INTERN PetscErrorCode SamSimulationAdviseEdge(SamSimulation simulation, co
                      simulation. Not collective.
     CreateGradient   begins the record of all steps to come, with this shape of the gap, which is borrowed, and so many
                      bytes (SamGradientSetMemory())
+    EndRecord        ends it, and frees it
+    ForgetRecord     leaves out the steps so far, which no others continue. Not collective.
+    RecordStep       records the tried step, before it is committed, if steps are recorded
     BeginCycles      begins that of a wear simulation, if steps are recorded and it is one
     RecordCycleStep  records a step of a cycle, RecordJump a part of a jump, if steps are recorded: functions of
                      SamLifeCycle whose context is the simulation
-  All but the first are collective. Errors: SAM_ERR_USER.
+  Those not marked are collective. Errors: SAM_ERR_USER.
 */
 PETSC_INTERN PetscInt       SamSimulationCountSteps(SamSimulation simulation);
 PETSC_INTERN PetscErrorCode SamSimulationCreateGradient(SamSimulation simulation, SamGap shape, PetscReal memory);
+PETSC_INTERN PetscErrorCode SamSimulationEndRecord(SamSimulation simulation);
+PETSC_INTERN void           SamSimulationForgetRecord(SamSimulation simulation);
+PETSC_INTERN PetscErrorCode SamSimulationRecordStep(SamSimulation simulation);
 PETSC_INTERN PetscErrorCode SamSimulationBeginCycles(SamSimulation simulation);
 PETSC_INTERN PetscErrorCode SamSimulationRecordCycleStep(void *simulation, PetscInt step, SamLifePlace place);
 PETSC_INTERN PetscErrorCode SamSimulationRecordJump(void *simulation, const SamLifePart *part);

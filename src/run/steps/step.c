@@ -66,7 +66,7 @@ PetscErrorCode SamSimulationCommitStep(SamSimulation s, const SamStep *step)
 {
   PetscFunctionBegin;
   PetscCall(SamSimulationNeedTried(s, step));
-  if (s->gradient) PetscCall(SamGradientRecord(s->gradient, -1, SAM_LIFE_CLOSING));
+  PetscCall(SamSimulationRecordStep(s));
   PetscCall(SamContactCommit(s->setup.contact));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
