@@ -196,7 +196,7 @@ static PetscErrorCode PrintEnergy(SamReport r)
   if (r->divided)
     PetscCall(PetscPrintf(r->comm,
                           "  %-10s  %" PetscInt_FMT " of %" PetscInt_FMT
-                          " solved in parts, as contact is lost or made under shear; not with -step_divide no\n",
+                          " solved in parts, as N changes under shear; not with -step_divide no\n",
                           "steps", r->divided, r->steps));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

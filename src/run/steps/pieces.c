@@ -5,8 +5,8 @@
   interpolated between the pieces of the step. With -step_rtol the pieces must be so short that the estimate of each is
   at most a part of the tolerance times an energy: its own, or a fifth of the average energy of pieces of this length so
   far, if that is more. Then the sums keep the tolerance, too. Else, unless -step_divide no, a step is divided where
-  contact is lost or made under shear: where the work of its loads is not what the shear stores and the slip dissipates,
-  by more than a part of the energy of all steps so far.
+  contact is lost, made or grows under shear: where the work of its loads is not what the shear stores and the slip
+  dissipates, by more than a part of the energy of all steps so far.
 
   Algorithm, from a quarter of the step on, or from all of it:
     1. Try the piece. If its estimate is too large, reject it, and try half of it.
@@ -46,7 +46,7 @@ PetscErrorCode SamSimulationReadPieces(SamSimulation s, const SamOptions *from)
   static const SamOptionRow rows[] = {{"step_rtol",
                                        "divide load steps until the energy has this estimated error; 0: never",
                                        SAM_OPTION_REAL, MEMBER(step_rtol), .range = SAM_RANGE_NONNEGATIVE},
-                                      {"step_divide", "divide steps that lose or make contact under shear",
+                                      {"step_divide", "divide steps in which N changes under shear",
                                        SAM_OPTION_BOOL, .member = MEMBER(step_divide)}};
 
   PetscFunctionBegin;

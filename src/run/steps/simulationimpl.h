@@ -71,7 +71,7 @@ struct _n_SamSimulation {
   SamSimulationStart     start;
   SamSimulationPoint     point;       /* position in the load history; steps before a restart count, too */
   PetscReal              step_rtol;   /* estimated relative error allowed for a step's dissipated energy; 0: any */
-  PetscBool              step_divide; /* steps that lose or make contact under shear are divided */
+  PetscBool              step_divide; /* steps in which N changes under shear are divided */
   PetscBool              prepared;
   PetscBool              running; /* runs the history or the life; otherwise steps are given one by one */
   PetscBool              has_gap; /* the gap differs from that of the options */
