@@ -43,11 +43,10 @@
 #define MEMBER(name) offsetof(struct _n_SamSimulation, name)
 PetscErrorCode SamSimulationReadPieces(SamSimulation s, const SamOptions *from)
 {
-  static const SamOptionRow rows[] = {{"step_rtol",
-                                       "divide load steps until the energy has this estimated error; 0: never",
-                                       SAM_OPTION_REAL, MEMBER(step_rtol), .range = SAM_RANGE_NONNEGATIVE},
-                                      {"step_divide", "divide steps in which N changes under shear",
-                                       SAM_OPTION_BOOL, .member = MEMBER(step_divide)}};
+  static const SamOptionRow rows[] = {
+    {"step_rtol", "divide load steps until the energy has this estimated error; 0: never", SAM_OPTION_REAL,
+     MEMBER(step_rtol), .range = SAM_RANGE_NONNEGATIVE},
+    {"step_divide", "divide steps in which N changes under shear", SAM_OPTION_BOOL, .member = MEMBER(step_divide)}};
 
   PetscFunctionBegin;
   s->step_divide = PETSC_TRUE;
