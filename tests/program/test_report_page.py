@@ -224,7 +224,8 @@ def verdict_of(path, options="", errors=(), warnings=()):
         ),
         ("-accuracy 1e-2", [0.02, 0.03], "warning", "above it, too: {0} 2 %"),
         ("-grid auto", [0.02], "warning", "Accuracy not reached: {0} has an error of 2 %"),
-        ("-accuracy 1%", [math.nan], "warning", "Accuracy not reached: the error of {0} is unknown"),
+        ("-accuracy 1%", [math.nan], "warning", "Accuracy not reached: the error of {0} is unknown; 1 % is required"),
+        ("-accuracy 1%", [1.2], "warning", "Accuracy not reached: the error of {0} is unknown"),
         ("-accuracy 1% -accuracy_of stick_area", [0.02], "fine", "The accuracy of 1 % is reached"),
         ("-accuracy 3%", [0.02], "fine", "The accuracy of 3 % is reached: the maximum error is 2 %, of {0}."),
         ("", [0.054], "warning", "Not accurate: {0} has an error of 5.4 % by the {1}."),
@@ -236,6 +237,13 @@ def test_the_verdict_follows_the_check_and_the_accuracy(copy, options, errors, k
     found, said, names = verdict_of(copy, options, errors)
     assert found == kind and says.format(names[0], cause) in said
     assert ("Passed: " in said) == (kind == "fine") and "the check agrees. Exit code 0." in said.replace("All", "all")
+
+
+@pytest.mark.usefixtures("undrawn")
+def test_numbers_that_the_run_warns_of_are_named_once(copy):
+    names = list(petsam.open(copy).errors)[:2]
+    _, said, _ = verdict_of(copy, errors=[0.5, 0.3], warnings=[f"error by the cells: {names[1]} 30 %: use -grid_n 99"])
+    assert f"{names[1]} has an error" not in said and f"{names[1]} 30 %" in said
 
 
 @pytest.mark.usefixtures("undrawn")

@@ -1,6 +1,7 @@
 """The verdict of a report: the check of all steps, the required accuracy, and warnings beside them."""
 
 import math
+import re
 
 import numpy as np
 
@@ -83,12 +84,12 @@ def _too_large(results):
     allowed, names = asked(results) or (LARGE, [])
     some = [(name, one) for name, one in results.errors.items() if not names or name in names]
     some = [(name, one) for name, one in some if not one.error <= allowed]
-    return sorted(some, key=lambda pair: -pair[1].error if math.isfinite(pair[1].error) else -math.inf), allowed
+    return sorted(some, key=lambda pair: -pair[1].error if sheets.is_known(pair[1].error) else -math.inf), allowed
 
 
 def _error(name, one):
     """An error in words."""
-    if not math.isfinite(one.error):
+    if not sheets.is_known(one.error):
         return f"the error of {name} is unknown"
     return f"{name} has an error of {sheets.percent(one.error)} by the {one.cause}"
 
@@ -100,8 +101,8 @@ def _doubt(results):
     if not asked(results):
         return f"Not accurate: {_error(*large[0])}" if large else ""
     if large:
-        known = "above" if math.isfinite(large[0][1].error) else "not"
-        return f"Accuracy not reached: {_error(*large[0])}, {known} {wanted}"
+        beside = f", above {wanted}" if sheets.is_known(large[0][1].error) else f"; {100.0 * allowed:.3g} % is required"
+        return f"Accuracy not reached: {_error(*large[0])}{beside}"
     return "" if results.errors else f"Accuracy unknown: the file has no errors to compare with {wanted}"
 
 
@@ -146,7 +147,8 @@ def warnings(results):
     small = [(name, one) for name, one in large if one.error <= LARGE]
     if small:
         found.append(f"above it, too: {', '.join(f'{name} {sheets.percent(one.error)}' for name, one in small)}")
-    known = [name for name, _ in (*told, *small)]
+    own = " ".join(one for one in results.warnings if one.startswith("error by the "))  # by the run: they name theirs
+    known = [*(name for name, _ in (*told, *small)), *re.findall(r"\w+", own)]
     found += [_error(name, one) for name, one in results.errors.items() if name not in known and not one.error <= LARGE]
     return found + results.warnings
 

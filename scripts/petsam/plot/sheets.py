@@ -21,6 +21,7 @@ BY_STEP = {"dissipated_energy": "energy_error"}  # numbers and columns with thei
 CLOSED = "_closed"  # end of the name of a number in closed form, which stands below that number
 PLACE = ("_x", "_y", "_z")  # ends of the names of the places of a stress
 SAME = 1e-6  # relative difference of a number and the one that its error is of
+UNKNOWN = 0.995  # error of a number from which on it is printed as unknown, as by the program
 COLUMNS = (
     "load_n", "load_tx", "load_ty", "load_mx", "load_my", "load_mz", "disp_z", "disp_x", "disp_y", "creep_x", "creep_y",
     "contact_area", "stick_area", "pressure_max", "shear_max", "slip_max", "dissipated_energy", "wear_volume1",
@@ -107,6 +108,11 @@ def shared(study):
 # ---------------------------------------------------------------- numbers
 
 
+def is_known(error):
+    """True if an error relative to a number is one that the program prints."""
+    return error < UNKNOWN  # not NaN either
+
+
 def percent(error):
     """A relative error as a text."""
     return "unknown" if not math.isfinite(error) else f"{100.0 * error:.2g} %"
@@ -114,7 +120,7 @@ def percent(error):
 
 def relative(value, unit, error, cause=""):
     """An error relative to a number: in percent, in its unit, and what it comes from."""
-    if not math.isfinite(error):
+    if not is_known(error):
         return page.Html("&plusmn; unknown")
     size = page.quantity(abs(value) * error, unit, 2, abs(value))
     return page.Html(f"&plusmn; {percent(error)} (&plusmn; {size}){page.text(cause and f', by the {cause}')}")
