@@ -196,7 +196,7 @@ static PetscErrorCode PrintEnergy(SamReport r)
   if (r->divided)
     PetscCall(PetscPrintf(r->comm,
                           "  %-10s  %" PetscInt_FMT " of %" PetscInt_FMT
-                          " solved in parts, as N changes under shear; not with -step_divide no\n",
+                          " solved in parts, as N changes under shear (-step_divide no turns this off)\n",
                           "steps", r->divided, r->steps));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
