@@ -21,10 +21,9 @@
 
   Derivatives scatter about those of fine grids: each cell that changes its set is a jump, whose size falls faster than
   the cell size. Half the estimate of a number is taken for them, without the rule above, since differences of such
-  scatter have any ratio. Of 634 derivatives of 58 random problems with errors above 0.5 %
-  (spheres, ellipsoids and pads of 32 to 64 cells, similar and dissimilar; against the mean of two grids of three times
-  finer cells and steps) this covers 88 %, with a median of the ratio of estimate and error of 2.8; the whole estimate
-  covers 96 %, with 5.4.
+  scatter have any ratio. Of 634 derivatives of 58 random problems with errors above 0.5 % (spheres, ellipsoids and pads
+  of 32 to 64 cells, similar and dissimilar; against the mean of two grids of three times finer cells and steps) this
+  covers 88 %, with a median of the ratio of estimate and error of 2.8; the whole estimate covers 96 %, with 5.4.
 
   Steps: the difference between two runs on the same coarse cells, one of which has half as many steps, or twice as
   many.

@@ -275,8 +275,7 @@ static PetscErrorCode SolveSteps(SamSimulation s)
 
 /*
   Computes the gradients, and tells the errors of them and of the last numbers. A run that stops for the time being has
-  those of the numbers as far as it has come; a life has
-  not, since its companions live as long as it does.
+  those of the numbers as far as it has come; a life has not, since its companions live as long as it does.
 */
 static PetscErrorCode EndErrors(SamSimulation s)
 {

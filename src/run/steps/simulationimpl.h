@@ -137,7 +137,7 @@ PETSC_INTERN PetscErrorCode SamSimulationAdviseEdge(SamSimulation simulation, co
     BeginCycles      begins that of a wear simulation, if steps are recorded and it is one
     RecordCycleStep  records a step of a cycle, RecordJump a part of a jump, if steps are recorded: functions of
                      SamLifeCycle whose context is the simulation
-  Those not marked are collective. Errors: SAM_ERR_USER.
+  Functions that are not marked are collective. Errors: SAM_ERR_USER.
 */
 PETSC_INTERN PetscInt       SamSimulationCountSteps(SamSimulation simulation);
 PETSC_INTERN PetscErrorCode SamSimulationCreateGradient(SamSimulation simulation, SamGap shape, PetscReal memory);
