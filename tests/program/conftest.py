@@ -191,8 +191,8 @@ def execute(launcher, directory, options, ranks, check, extra=None, program=None
     return support.Run(done.returncode, done.stdout, done.stderr)
 
 
-def start(launcher, directory, options, ranks=1, **how):
-    """Begins a run whose output can be read while it goes on."""
+def start(launcher, directory, options, ranks=1, extra=None, **how):
+    """Begins a run whose output can be read while it goes on; `extra`: variables of its environment."""
     return subprocess.Popen(
         (launcher + ["-n", str(ranks)] if ranks > 1 else []) + [str(PROGRAM), *support.flatten(options)],
         cwd=directory,
@@ -200,7 +200,7 @@ def start(launcher, directory, options, ranks=1, **how):
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,
-        env=environment(),
+        env={**environment(), **(extra or {})},
         **how,
     )
 

@@ -14,7 +14,7 @@ import pytest
 
 import conftest
 import petsam as library
-from kinds.kills import CASE, YIELDING, complete_steps, differences, torture, write_history
+from kinds.kills import CASE, YIELDING, AtWrites, complete_steps, differences, torture, write_history
 from support import Results, assert_same, ball, few
 
 STEPS = 24
@@ -613,6 +613,12 @@ def test_no_damaged_bit_is_taken_for_good(stopped, petsam):
 def test_run_that_is_killed_again_and_again_gets_to_the_same_end(launcher, folder, ranks, kills):
     """More of them: tests/program/random_problems.py kills --kills 50"""
     assert torture(launcher, folder, kills, ranks, seed=ranks) >= 1
+
+
+@pytest.mark.slow
+def test_run_one_of_whose_ranks_is_killed_at_a_write_gets_to_the_same_end(launcher, folder):
+    """More of them: tests/program/random_problems.py kills --writes --ranks 2 --kills 50"""
+    assert torture(launcher, folder, 12, ranks=2, seed=2, killer=AtWrites) >= 1
 
 
 @pytest.mark.parametrize("kind", YIELDING)

@@ -15,6 +15,7 @@ import numpy as np
 import pytest
 
 import conftest
+from kinds import kills
 from petsam.results import Results
 from support import FIELDS, SPHERE, flatten
 
@@ -230,29 +231,14 @@ def test_file_can_be_read_at_any_time(launcher, folder):
 
 @pytest.fixture(scope="module")
 def deadly(tmp_path_factory):
-    """A library that kills the program before a write that is counted."""
-    library = tmp_path_factory.mktemp("deadly") / "die_at_write.so"
-    compiler = shutil.which("cc") or shutil.which("gcc")
-    if not compiler:
-        pytest.skip("no C compiler")
-    subprocess.run(
-        [
-            compiler,
-            "-shared",
-            "-fPIC",
-            "-O1",
-            "-o",
-            str(library),
-            str(Path(__file__).with_name("die_at_write.c")),
-            "-ldl",
-        ],
-        check=True,
-    )
-    return library
+    """A library that kills the program before a change of its files that is counted."""
+    return kills.make_deadly(tmp_path_factory.mktemp("deadly")) or pytest.skip("no C compiler")
 
 
 def die(deadly, folder, options=None, **variables):
-    """Steps told before the end, and how the run ended."""
+    """Steps told before the end, and how the run ended. Each run begins alike: changes of files are counted."""
+    for old in (folder / "out").iterdir():
+        old.unlink()
     command = [str(conftest.PROGRAM), *flatten([CASE, dict(grid_n=24), options or {}])]
     run = subprocess.run(
         command,
@@ -285,6 +271,25 @@ def test_no_write_of_a_step_harms_the_steps_before(deadly, folder):
                 for name in (*FIELDS, "time", *(f"history/{column}" for column in f["history"])):
                     assert len(f[name][:]) >= steps, (n, name)
             assert_intact(folder / "out" / "out.h5", steps)
+
+
+def test_no_write_of_the_first_step_by_one_of_two_ranks_harms_the_file(deadly, launcher, folder):
+    """Each rank writes a part of HDF5's metadata; without that of one rank the file has no step, and can be read."""
+    log = folder / "log"
+    variables = dict(LD_PRELOAD=str(deadly), DIE_RANK="1")
+    (folder / "history.csv").write_text("time, load_tx\n1, 10\n")
+    once = [CASE, dict(grid_n=24, errors="none")]
+    conftest.start(launcher, folder, once, 2, extra={**variables, "DIE_LOG": str(log)}).communicate()
+    writes, tried = len(log.read_text().split()), 0
+    for n in range(writes // 2, writes - 8, max(1, writes // 20)):
+        (folder / "out" / "out.h5").unlink(missing_ok=True)
+        conftest.start(launcher, folder, once, 2, extra={**variables, "DIE_AT": str(n)}).communicate()
+        if (folder / "out" / "out.h5").exists():
+            tried += 1
+            with h5py.File(folder / "out" / "out.h5") as f:  # all that is there can be read
+                assert all(len(f[name][:]) <= 1 for name in (*FIELDS, "time")), n
+                assert all(len(column[:]) <= 1 for column in f["history"].values()), n
+    assert tried > 3
 
 
 def test_no_write_of_many_steps_harms_the_steps_before(deadly, folder):

@@ -124,6 +124,20 @@ PetscBool SamTextRead(hid_t object, const char name[], char text[], size_t size)
 
 /* ---- datasets ---- */
 
+/*
+  Creates the index of the chunks of a dataset that will grow. HDF5 creates it with the first chunk; then a run on
+  several ranks, each of which writes a part of the metadata, could be killed after the dataset names its index and
+  before the index is written, and nothing of the dataset could be read. Here the file has not got its name yet.
+*/
+static void CreateIndex(SamFile f, hid_t dataset, const SamShape *shape)
+{
+  static const hsize_t one[SAM_SHAPE_RANK] = {1, 1, 1, 1, 1, 1};
+
+  if (!shape->chunk[0] || shape->size[0]) return;
+  (void)SamFileNote(f, H5Dset_extent(dataset, one));
+  (void)SamFileNote(f, H5Dset_extent(dataset, shape->size));
+}
+
 hid_t SamFileCreateDataset(SamFile f, hid_t where, const SamLabel *label, hid_t type, const SamShape *shape,
                            PetscInt compress)
 {
@@ -141,6 +155,7 @@ hid_t SamFileCreateDataset(SamFile f, hid_t where, const SamLabel *label, hid_t 
     (void)SamFileNote(f, H5Pset_deflate(creation, (unsigned)compress));
   }
   dataset = SamFileNote(f, H5Dcreate2(where, label->name, type, space, H5P_DEFAULT, creation, H5P_DEFAULT));
+  CreateIndex(f, dataset, shape);
   if (label->units) SamFileWriteTextAttribute(f, dataset, "units", label->units);
   if (label->long_name) SamFileWriteTextAttribute(f, dataset, "long_name", label->long_name);
   (void)SamFileNote(f, H5Pclose(creation));

@@ -3,13 +3,17 @@
 After every kill there is a checkpoint that can be read, if one was told of, and the results hold the steps that were
 told, with the values of a run without kills. What the last run ends with is what a run without kills ends with, to the
 last bit. Cases: friction, and histories and wear cycles of bodies that yield. A trial is a campaign of --kills.
+
+With --writes one rank ends before one of its changes of files, or in the middle of one, instead of all at a moment.
 """
 
 import math
 import random
 import re
+import shutil
 import subprocess
 import time
+from pathlib import Path
 
 import numpy as np
 
@@ -32,7 +36,7 @@ YIELDING = {
     "life": (False, "cycles of wear and yield", dict(wear_cycles=60)),
     "plane life": (True, "cycles of wear and yield", dict(wear_cycles=100, body2_yield=1e8)),
 }
-OPTIONS = dict(trials=1, kills=50, ranks=1, case=("friction", *YIELDING))
+OPTIONS = dict(trials=1, kills=50, ranks=1, writes=False, case=("friction", *YIELDING))
 
 
 def write_history(folder, steps=STEPS):
@@ -93,7 +97,67 @@ def assert_told(told, steps, folder):
         assert not told or (int(told[-1]) in run.wear["cycle"] if run.wear else steps >= int(told[-1])), (steps, told)
 
 
-def torture(launcher, folder, kills, ranks, seed, kind="friction", tell=print):
+def make_deadly(folder):
+    """Builds the library that kills a program at a change of its files; None without a compiler."""
+    compiler, library = shutil.which("cc") or shutil.which("gcc"), folder / "die_at_write.so"
+    if not compiler:
+        return None
+    source = Path(__file__).parents[1] / "die_at_write.c"
+    subprocess.run([compiler, "-shared", "-fPIC", "-O1", "-o", str(library), str(source), "-ldl"], check=True)
+    return library
+
+
+class AtMoments:
+    """All ranks of a run are killed at a moment within the time that a whole run takes."""
+
+    logged = {}
+
+    def __init__(self, folder, ranks, chance):
+        self.ranks, self.chance, self.begin = ranks, chance, time.monotonic()
+
+    def learn(self):
+        """After a whole run, which began when this object was made."""
+        self.length = time.monotonic() - self.begin
+
+    def choose(self):
+        """Variables of the environment of a run that is to be killed."""
+        self.what = "at a moment"
+        return {}
+
+    def end(self, run):
+        """The output of a run, which was killed unless it had ended before."""
+        try:
+            return run.communicate(timeout=self.chance.uniform(0, self.length))
+        except subprocess.TimeoutExpired:
+            conftest.kill_all(run, self.ranks)
+            return run.communicate()
+
+
+class AtWrites:
+    """One rank is killed before or within a change of its files; early and late ones are equally frequent."""
+
+    def __init__(self, folder, ranks, chance):
+        self.library, self.log, self.ranks, self.chance = make_deadly(folder), folder / "log", ranks, chance
+        self.logged = dict(LD_PRELOAD=str(self.library), DIE_LOG=str(self.log), DIE_RANK="0")
+
+    def learn(self):
+        self.most = len(self.log.read_text().split())
+
+    def choose(self):
+        at = round(
+            math.exp(self.chance.uniform(0, math.log(self.most)))
+            if self.chance.random() < 0.5
+            else self.chance.uniform(1, self.most)
+        )
+        rank, half = self.chance.randrange(self.ranks), self.chance.randrange(2)
+        self.what = f"rank {rank} {'in' if half else 'before'} change {at}"
+        return dict(LD_PRELOAD=str(self.library), DIE_AT=str(at), DIE_RANK=str(rank), DIE_HALF=str(half))
+
+    def end(self, run):
+        return run.communicate()
+
+
+def torture(launcher, folder, kills, ranks, seed, kind="friction", tell=print, killer=AtMoments):
     """So many kills over as many runs as it takes; returns how many went on from a checkpoint.
 
     Where none did, as each kill was earlier than the first checkpoint, up to ten times as many kills.
@@ -101,29 +165,25 @@ def torture(launcher, folder, kills, ranks, seed, kind="friction", tell=print):
     chance, restarts, more = random.Random(seed), 0, 9 * kills
     case = write_case(kind, folder)
     complete = COMPLETE.get(kind, complete_as_whole)
-    begin = time.monotonic()
-    run = conftest.start(
-        launcher, folder, [case, dict(output="whole.h5"), KEPT, dict(checkpoint="whole.state.h5")], ranks
-    )
+    how = killer(folder, ranks, chance)
+    whole = [case, dict(output="whole.h5"), KEPT, dict(checkpoint="whole.state.h5")]
+    run = conftest.start(launcher, folder, whole, ranks, extra=how.logged)
     out, err = run.communicate()
     assert run.returncode == 0, (run.returncode, out, err)
-    length = time.monotonic() - begin
+    how.learn()
     while True:
         told_before = complete(folder) if (folder / "state.h5").exists() else 0
         goes_on = (folder / "state.h5").exists()
         restarts += goes_on
         if kills <= 0 and restarts == 0 and more > 0:
             kills, more = 1, more - 1
-        run = conftest.start(launcher, folder, [case, KEPT, dict(restart="state.h5") if goes_on else {}], ranks)
-        try:
-            out, err = run.communicate(timeout=chance.uniform(0, length) if kills > 0 else None)
-        except subprocess.TimeoutExpired:
-            conftest.kill_all(run, ranks)
-            out, err = run.communicate()
+        extra = how.choose() if kills > 0 else {}
+        run = conftest.start(launcher, folder, [case, KEPT, dict(restart="state.h5") if goes_on else {}], ranks, extra)
+        out, err = how.end(run) if kills > 0 else run.communicate()
         told = re.findall(r"^ *(\d+) +\S+ +\d+", out, re.M)
         if run.returncode == 0:
             wrong = differences(folder / "out.h5", folder / "whole.h5")
-            assert not wrong, wrong
+            assert not wrong, (how.what, wrong)
             if kills <= 0:
                 return restarts
             tell("a run got to its end; the next begins anew")
@@ -137,16 +197,17 @@ def torture(launcher, folder, kills, ranks, seed, kind="friction", tell=print):
             assert_told(told, steps, folder)
             assert told or goes_on
             kept = "yes" if (folder / "state.h5").exists() else "no"
-            tell(f"killed after {told[-1] if told else 'no step'}, {steps} complete, checkpoint {kept}")
+            tell(f"killed {how.what} after {told[-1] if told else 'no step'}, {steps} complete, checkpoint {kept}")
         else:
-            tell("killed before its first step")
+            tell(f"killed {how.what} before its first step")
         assert not goes_on or (folder / "state.h5").exists()
 
 
 def trial(seed, folder, given):
     """A campaign of kills."""
     tell = print if given.show else lambda _: None
-    restarts = torture(conftest.launcher_words(), folder, given.kills, given.ranks, seed, given.case, tell)
+    killer = AtWrites if given.writes else AtMoments
+    restarts = torture(conftest.launcher_words(), folder, given.kills, given.ranks, seed, given.case, tell, killer)
     text = f"{given.case}: {given.kills} kills, {restarts} runs went on from a checkpoint"
     return Outcome(text, False, dict(restarts=restarts))
 
