@@ -540,7 +540,7 @@ def test_motion_until_cells_touch_that_does_not_settle_stays(petsam, tmp_path, r
     held = re.findall(r"until cells touch stays, change of q (\S+)", done.stdout)
     assert 1 <= len(held) <= 2 and all(float(change) < 1e-2 for change in held)
     with h5py.File(tmp_path / "r.h5") as f:
-        assert f["history/tangential_residual"][:].max() < 1e-6 and f["history/coupling_iterations"][:].max() < 40
+        assert f["history/tangential_residual"][:].max() < 1e-6 and f["history/coupling_iterations"][:].max() < 60
         shear = f["history/shear_max"][-1]
     petsam(dict(case, steps=4), dict(output="r.h5", overwrite=True))
     with h5py.File(tmp_path / "r.h5") as f:
