@@ -126,6 +126,35 @@ static void test_half_widths_of_counted_cells(void **state)
   sam_call(SamGridDestroy(&grid));
 }
 
+/* At the tips of slender zones no cell is accepted; the function of the last one tells where they end. */
+static void test_half_widths_of_slender_zones(void **state)
+{
+  static const double half[][2] = {{5.3, 24.4}, {6.7, 25.1}, {6.2, 28.8}};
+  SamGrid             grid      = NewGridOn(PETSC_COMM_WORLD, 64, 25, 64, 25, 0, 0);
+  Vec                 w         = NewField(grid, 1);
+
+  (void)state;
+  for (int k = 0; k < 3; k++) {
+    SamEdge edge;
+    double *array;
+
+    sam_call(VecGetArray(w, &array));
+    for (PetscInt c = 0; c < grid->cells; c++) {
+      const double x = SamGridX(grid, c % 64) / half[k][1], y = SamGridY(grid, grid->row_start + c / 64) / half[k][0];
+
+      array[c] = fmax(0, 1 - x * x - y * y);
+    }
+    sam_call(VecRestoreArray(w, &array));
+    sam_call(SamEdgeReconstruct(grid, PETSC_FALSE, w, &edge));
+    sam_assert(edge.good < edge.faces);
+    sam_assert_close(edge.half[0], half[k][1], 0.2);
+    sam_assert_close(edge.half[1], half[k][0], 0.1);
+    sam_call(SamEdgeDestroy(&edge));
+  }
+  sam_call(VecDestroy(&w));
+  sam_call(SamGridDestroy(&grid));
+}
+
 /* A disc and an ellipse over the border of a period have the half widths of those in its middle. */
 static void test_half_widths_of_periodic_zones(void **state)
 {
@@ -516,6 +545,7 @@ int main(int argc, char **argv)
     cmocka_unit_test(test_area_is_of_second_order),
     cmocka_unit_test(test_half_widths_are_found_to_a_fraction_of_a_cell),
     cmocka_unit_test(test_half_widths_of_counted_cells),
+    cmocka_unit_test(test_half_widths_of_slender_zones),
     cmocka_unit_test(test_half_widths_of_periodic_zones),
     cmocka_unit_test(test_edge_of_stick_is_cattaneos),
     cmocka_unit_test(test_step_has_the_areas_of_its_edges),

@@ -13,8 +13,9 @@
     4. Areas: the part of each cell of the band where the function is positive, by sub-cells. Where the guard rejects
        the reconstruction, the whole cell counts, minus SAM_EDGE_FACE for each of its faces to a cell outside, unless w
        is BLUNT there.
-    5. Extents: those of these parts. A whole cell moves them only if it reaches more than a cell beyond the parts that
-       are reconstructed: its error is half a cell, and single cells are rejected at smooth edges, too.
+    5. Extents: the edge lies between the centres of the outermost cell of the zone and of the next one, where the
+       function of the outermost cell that is accepted vanishes. If it does not there, the accepted parts decide, or the
+       whole cells if they reach more than a cell beyond those: single cells are rejected at smooth edges, too.
   Distances are in cells.
 */
 #include "edgesimpl.h"
@@ -27,6 +28,8 @@
 #define SHIFT  0.0105 /* of the edge; fitted on circles and ellipses, whose shifts agree within 5 % */
 #define BENT   0.005  /* largest deviation of the core from the function, rms over the slope of a cell */
 #define BLUNT  0.6  /* ratio of w in a cell at the edge to w in the cell behind it, if w does not vanish at the edge */
+#define LOOSE  0.25 /* of a cell: by so much an edge may miss its place between the centres of two cells */
+#define BEYOND 4    /* cells from its centre up to which a function tells an extent */
 #define NEXT   (-2) /* a cell outside is beside the zone if its distance's square is at most 2 */
 #define HALO   (WINDOW + 5)
 
@@ -40,18 +43,23 @@ static const double margin_least[] = {-0.15, -0.03, -0.03}, margin_most[] = {0.2
 /* What is known of the reconstruction of a cell of the band by itself */
 typedef enum { UNKNOWN, ROUGH, SMOOTH } Look;
 
+/* How far the zone reaches from its middle to each side, in cells: by the parts of cells that are accepted; by whole
+   cells; to the centre of its outermost cell; to that of the outermost one that is accepted; to where the function of
+   this vanishes. */
+typedef enum { ACCEPTED, WHOLE, LAST_CELL, OUTER, ONWARD, REACHES } Reaches;
+
 /* The zone, and the reconstruction of the cells of its band and beside it, which are found when they are needed. */
 typedef struct {
   SamZone      zone;
   SamFitWindow core;
-  PetscInt    *slot;      /* of each cell: its place among the cells of the band, -1 for the others */
-  PetscInt     band;      /* number of cells in the band */
-  char        *look;      /* of each cell of the band: a Look */
-  double      *fit;       /* of each cell of the band: its function, once it has a look */
-  PetscInt     middle[2]; /* cell about which the zone lies, over the border of a periodic grid, */
-  PetscInt     period[2]; /* whose period this is, in cells, else 0 */
-  /* how far the zone reaches from there to each side, in cells: by certain parts, and by cells that are counted */
-  double reach[2][SAM_FIT_SIDES];
+  PetscInt    *slot;  /* of each cell: its place among the cells of the band, -1 for the others */
+  PetscInt     band;  /* number of cells in the band */
+  char        *look;  /* of each cell of the band: a Look */
+  double      *fit;   /* of each cell of the band: its function, once it has a look */
+  PetscInt middle[2]; /* cell from which extents count; the zone lies about it over the border of a periodic grid, */
+  PetscInt period[2]; /* whose period this is, in cells, else 0 */
+  PetscInt end[2][2]; /* first and last column, and row, from there */
+  double   reach[REACHES][SAM_FIT_SIDES];
 } Band;
 
 /*
@@ -169,16 +177,33 @@ static double PlaceOf(const Band *band, int axis, PetscInt i)
   return (double)(period ? (place + period + period / 2) % period - period / 2 : place);
 }
 
-/* Raises the zone's reach to that of a cell: by its function, or if that is NULL by its whole, less `face`. */
-static void Reach(Band *band, PetscInt i, PetscInt j, const double *fit, double face, double reach[SAM_FIT_SIDES])
+/* Raises the extent to that of an accepted cell, whose centre is so far out, at a side. */
+static void Accept(Band *band, int side, double from, PetscBool inside, const double fit[SAM_FIT_TERMS])
+{
+  double *const accepted = &band->reach[ACCEPTED][side], *const outer = &band->reach[OUTER][side],
+                *const onward = &band->reach[ONWARD][side];
+
+  if (from + 0.5 > *accepted) *accepted = PetscMax(*accepted, from + SamFitReach(fit, side, 0.5));
+  if (!inside || from < *outer) return;
+  if (from > *outer) *onward = -INFINITY;
+  *outer  = from;
+  *onward = PetscMax(*onward, from + SamFitReach(fit, side, BEYOND));
+}
+
+/* Raises the extent to that of a cell: by its function, or if that is NULL by its whole, less `face`, which is accepted
+   or not. `inside`: it is in the zone. */
+static void Reach(Band *band, PetscInt i, PetscInt j, PetscBool inside, const double *fit, Reaches by, double face)
 {
   const double place[2] = {PlaceOf(band, 0, i), PlaceOf(band, 1, j)};
 
   for (int side = 0; side < SAM_FIT_SIDES; side++) {
     const double from = side % 2 ? -place[side / 2] : place[side / 2];
 
-    if (from + 0.5 > reach[side])
-      reach[side] = PetscMax(reach[side], from + (fit ? SamFitReach(fit, side) : 0.5 - face));
+    if (inside) band->reach[LAST_CELL][side] = PetscMax(band->reach[LAST_CELL][side], from);
+    if (fit)
+      Accept(band, side, from, inside, fit);
+    else
+      band->reach[by][side] = PetscMax(band->reach[by][side], from + 0.5 - face);
   }
 }
 
@@ -202,7 +227,7 @@ static void AddCell(Band *band, PetscInt i, PetscInt j, double sums[SUMS], SamEd
   sums[FACES] += (double)faces;
   sums[GOOD] += good ? (double)faces : 0;
   sums[AREA] += good ? SamFitPart(fit) : inside ? 1 - face * (double)faces : 0;
-  if (good || inside) Reach(band, i, j, fit, face, band->reach[good ? 0 : 1]);
+  if (good || inside) Reach(band, i, j, inside, fit, WHOLE, face);
   if (!good) return;
   edge->corrected_cell[edge->corrected] = (j - grid->row_start) * grid->nx + i;
   edge->corrected_w[edge->corrected++]  = fit[0];
@@ -213,14 +238,15 @@ static void AddCell(Band *band, PetscInt i, PetscInt j, double sums[SUMS], SamEd
 static void AddRow(Band *band, PetscInt j, double sums[SUMS], SamEdge *edge)
 {
   const ptrdiff_t first = SamZoneAt(&band->zone, 0, j);
+  const PetscBool ends  = j == band->end[1][0] || j == band->end[1][1] ? PETSC_TRUE : PETSC_FALSE;
   PetscInt        whole = 0; /* cells of the zone beyond the band */
 
   for (PetscInt i = 0; i < band->zone.grid->nx; i++)
     if (band->slot[first + i] >= 0) {
       AddCell(band, i, j, sums, edge);
     } else if (band->zone.distance[first + i] > 0) {
-      whole++;
-      Reach(band, i, j, NULL, 0, band->reach[0]);
+      whole++; /* only at an end of the grid can the zone end there */
+      if (ends || i == band->end[0][0] || i == band->end[0][1]) Reach(band, i, j, PETSC_TRUE, NULL, ACCEPTED, 0);
     }
   sums[CELLS] += (double)whole;
   sums[AREA] += (double)whole;
@@ -287,21 +313,40 @@ static PetscErrorCode FindBand(Band *band)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Finds the middle of the zone, from which its reach counts. Collective. */
+/* Finds the cell from which extents count. Collective. */
 static PetscErrorCode FindMiddle(Band *band, PetscBool periodic, Vec w)
 {
   const SamGrid  grid     = band->zone.grid;
   const PetscInt count[2] = {grid->nx, grid->ny};
-  PetscInt       first[2], n[2];
+  PetscInt       first[2] = {0, 0}, n[2] = {0, 0};
 
   PetscFunctionBegin;
-  PetscCall(SamGridGetSupport(grid, w, periodic, first, n));
+  if (periodic) PetscCall(SamGridGetSupport(grid, w, periodic, first, n));
   for (int k = 0; k < 2; k++) {
     band->middle[k] = first[k] + n[k] / 2;
     band->period[k] = periodic ? count[k] : 0;
+    band->end[k][0] = periodic ? (band->middle[k] - count[k] / 2 + count[k]) % count[k] : 0;
+    band->end[k][1] = (band->end[k][0] + count[k] - 1) % count[k];
   }
-  for (int side = 0; side < SAM_FIT_SIDES; side++) band->reach[0][side] = band->reach[1][side] = -INFINITY;
+  for (int side = 0; side < SAM_FIT_SIDES; side++)
+    for (int k = 0; k < REACHES; k++) band->reach[k][side] = -INFINITY;
   PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* True if an edge may lie there, between the centres of the last cell and of the next one. */
+static PetscBool IsBeside(double last, double edge)
+{
+  return fabs(edge - (last + 0.5)) <= 0.5 + LOOSE;
+}
+
+/* Returns how far the zone reaches at a side. */
+static double FarOf(const Band *band, int side)
+{
+  const double accepted = band->reach[ACCEPTED][side], whole = band->reach[WHOLE][side];
+  const double onward = band->reach[ONWARD][side], last = band->reach[LAST_CELL][side];
+
+  if (IsBeside(last, onward)) return onward;
+  return PetscClipInterval(whole > accepted + 1 ? whole : accepted, last, last + 1);
 }
 
 /* Computes half of the zone's extents from its reach on all ranks. Collective. */
@@ -309,14 +354,16 @@ static PetscErrorCode FindExtent(Band *band, PetscReal half[2])
 {
   const SamGrid   grid    = band->zone.grid;
   const PetscReal cell[2] = {grid->dx, grid->dy};
-  double          far[SAM_FIT_SIDES];
+  double          outer[SAM_FIT_SIDES];
 
   PetscFunctionBegin;
-  PetscCall(SamMax(grid->comm, 2 * SAM_FIT_SIDES, band->reach[0]));
+  for (int side = 0; side < SAM_FIT_SIDES; side++) outer[side] = band->reach[OUTER][side];
+  PetscCall(SamMax(grid->comm, ONWARD * SAM_FIT_SIDES, band->reach[0]));
   for (int side = 0; side < SAM_FIT_SIDES; side++)
-    far[side] = band->reach[1][side] > band->reach[0][side] + 1 ? band->reach[1][side] : band->reach[0][side];
+    if (outer[side] < band->reach[OUTER][side]) band->reach[ONWARD][side] = -INFINITY;
+  PetscCall(SamMax(grid->comm, SAM_FIT_SIDES, band->reach[ONWARD]));
   for (int k = 0; k < 2; k++) {
-    const double extent = PetscMax(far[2 * k] + far[2 * k + 1], 0);
+    const double extent = PetscMax(FarOf(band, 2 * k) + FarOf(band, 2 * k + 1), 0);
 
     half[k] = 0.5 * (PetscReal)PetscMin(extent, (double)(k ? grid->ny : grid->nx)) * cell[k];
   }

@@ -84,10 +84,10 @@ PETSC_INTERN PetscBool SamFit(const SamZone *zone, SamFitWindow *window, PetscIn
 /* SamFitPart - returns the part of a cell where its function is positive. */
 PETSC_INTERN double SamFitPart(const double fit[SAM_FIT_TERMS]);
 /*
-  SamFitReach - returns how far a cell's function is positive in the cell towards a side, in cells from its centre;
-  -INFINITY: nowhere, or to no edge there. Sides in the order x, -x, y, -y.
+  SamFitReach - returns how far a cell's function is positive towards a side, in cells from its centre, at most to
+  `farthest`; -INFINITY: nowhere in the cell. Sides in the order x, -x, y, -y.
 */
 enum { SAM_FIT_SIDES = 4 };
-PETSC_INTERN double SamFitReach(const double fit[SAM_FIT_TERMS], int side);
+PETSC_INTERN double SamFitReach(const double fit[SAM_FIT_TERMS], int side, double farthest);
 
 #endif

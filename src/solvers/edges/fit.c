@@ -201,8 +201,8 @@ SAM_VECTORIZED static double SumParts(const double *restrict fit, double slope)
   return sum;
 }
 
-/* Returns how far the function is positive in the cell along x, by rows of sub-cells. */
-static double ReachAlong(const double fit[TERMS])
+/* Returns how far the function is positive along x, at most so far, by rows of the cell's sub-cells. */
+static double ReachAlong(const double fit[TERMS], double farthest)
 {
   double most = -INFINITY;
 
@@ -211,21 +211,21 @@ static double ReachAlong(const double fit[TERMS])
     const double square = slope * slope - 4 * middle * fit[3];
     double       x      = -INFINITY;
 
-    if (SamFitAt(fit, 0.5, y) > 0)
-      x = 0.5;
-    else if (slope < 0 && square >= 0)
-      x = PetscMin(2 * middle / (sqrt(square) - slope), 0.5);
+    if (slope < 0 && square >= 0)
+      x = PetscMin(2 * middle / (sqrt(square) - slope), farthest);
+    else if (SamFitAt(fit, 0.5, y) > 0)
+      x = farthest;
     if (x >= -0.5) most = PetscMax(most, x);
   }
   return most;
 }
 
-double SamFitReach(const double f[TERMS], int side)
+double SamFitReach(const double f[TERMS], int side, double farthest)
 {
   const double sign = side % 2 ? -1 : 1;
 
-  if (side < 2) return ReachAlong((const double[TERMS]){f[0], sign * f[1], f[2], f[3], sign * f[4], f[5]});
-  return ReachAlong((const double[TERMS]){f[0], sign * f[2], f[1], f[5], sign * f[4], f[3]});
+  if (side < 2) return ReachAlong((const double[TERMS]){f[0], sign * f[1], f[2], f[3], sign * f[4], f[5]}, farthest);
+  return ReachAlong((const double[TERMS]){f[0], sign * f[2], f[1], f[5], sign * f[4], f[3]}, farthest);
 }
 
 /* Returns the part of a cell of a single row that lies on the positive side of its function's root. */
