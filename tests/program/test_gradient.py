@@ -1089,6 +1089,7 @@ def test_steps_of_a_gradient(petsam, loads, tmp_path):
         (dict(gradient_rtol=2), "gradient_rtol"),
         (dict(gradient_steps="3,2"), "first and the last one"),
         (dict(gradient_steps="9,0"), "first and the last one"),
+        (dict(gradient_steps="0,3"), "first and the last one"),
         (dict(gradient="energy,energy"), "energy is listed twice"),
         (dict(gradient=","), "expected names"),
         (dict(gradient="wear_volume,energy"), "no coefficient of wear"),
@@ -1190,6 +1191,28 @@ def test_errors_of_derivatives_are_unknown_without_companions(petsam, cycle, tmp
     by = (rows[0].value, rows[0].half, rows[0].quarter)
     expected = max(abs(by[0] - by[1]) / 2, abs(by[1] - by[2]) / 4) / abs(by[0])
     assert rows[0].by_cells == pytest.approx(expected, rel=1e-12)
+
+
+def test_error_of_the_energy_of_one_step_needs_the_same_step(petsam, cycle, tmp_path):
+    """The companion with half as many steps dissipates another energy in its step: nothing is known by the steps."""
+    case = dict(TOLD, grid_n=32, gradient="energy", gradient_of="load_tx", output="o.h5")
+    rows = []
+    for steps in ("14,14", "13,16"):
+        petsam(dict(case, gradient_steps=steps, overwrite=True))
+        rows.append(library.open(tmp_path / "o.h5").errors["energy_by_load_tx"])
+    assert np.isnan(rows[0].by_steps) and rows[1].by_steps < 1e-3
+
+
+def test_derivatives_of_an_energy_of_thin_slip_zones_are_doubted(petsam, cycle, tmp_path):
+    """As the energy is, whose error is known in closed form; but theirs are not known by that."""
+    (tmp_path / "history.csv").write_text("time,load_n,load_tx\n1,1000,0\n2,1000,45\n3,1000,-45\n4,1000,45\n")
+    case = dict(TOLD, grid_n=24, history="history.csv", steps=1, gradient="energy", gradient_of="load_tx,friction")
+    petsam(dict(case, output="o.h5"))
+    rows = library.open(tmp_path / "o.h5").errors
+    for name in ("load_tx", "friction"):
+        row = rows[f"energy_by_{name}"]
+        own = max(abs(row.value - row.half) / 2, abs(row.half - row.quarter) / 4) / abs(row.value)
+        assert row.by_cells == pytest.approx(max(own, rows["dissipated_energy"].by_cells), rel=1e-12)
 
 
 def test_accuracy_counts_derivatives(petsam, cycle, tmp_path):

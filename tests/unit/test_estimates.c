@@ -36,6 +36,17 @@ static void test_error_of_a_series_is_its_rest(void **state)
   sam_assert_close(SamErrorOfSeries(0.1, 1, alone), 0, 0);
 }
 
+/* Half of that of a number; all of it where a run is missing, or has lost what is derived. */
+static void test_error_of_a_derivative(void **state)
+{
+  const double both[] = {1.1, 1.5, NAN}, alone[] = {1.1, NAN, NAN}, lost[] = {0, 0, NAN};
+
+  (void)state;
+  sam_assert_close(SamErrorOfDerivative(1, both), 0.1, 1e-15);
+  sam_assert_close(SamErrorOfDerivative(1, alone), 0.1, 1e-15);
+  sam_assert_close(SamErrorOfDerivative(1, lost), 1, 1e-15);
+}
+
 static void test_error_by_steps_is_the_difference_of_runs_on_the_same_cells(void **state)
 {
   const double runs[] = {2, 7, 2.5};
@@ -134,6 +145,7 @@ int main(int argc, char **argv)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(test_error_by_cells_is_the_larger_difference),
     cmocka_unit_test(test_error_of_a_series_is_its_rest),
+    cmocka_unit_test(test_error_of_a_derivative),
     cmocka_unit_test(test_error_by_steps_is_the_difference_of_runs_on_the_same_cells),
     cmocka_unit_test(test_largest_doubt_is_kept_for_each_number_and_cause),
     cmocka_unit_test(test_more_doubts_than_there_is_room_for_are_dropped),

@@ -12,9 +12,10 @@ PETSC_EXTERN const char *const SamCauseNames[SAM_CAUSES];
 /* SamDoubt - an error of a number by a cause. */
 #define SAM_DOUBT_LARGE 0.05 /* errors above this are told */
 #define SAM_ENERGY_NONE 1e-6 /* energy, relative to N times the approach, that is next to nothing: it has no error */
+#define SAM_DOUBT_NAME  128  /* characters of a name */
 #define SAM_DOUBT_WHY   160  /* characters of a reason */
 typedef struct {
-  char      name[32];
+  char      name[SAM_DOUBT_NAME];
   SamCause  cause;
   double    error;              /* relative to the number; 1: nothing is known of it */
   PetscBool known;              /* that of a value in closed form: no other estimate counts */

@@ -13,7 +13,7 @@ typedef enum { SAM_RUN_HALF, SAM_RUN_QUARTER, SAM_RUN_OTHER, SAM_RUNS } SamRunKi
   `factor`: how many times narrower cells, more steps or more layers make the error by the larger cause 4 %; 1: it is
   smaller.
 */
-#define SAM_ERROR_NAME 128
+#define SAM_ERROR_NAME SAM_DOUBT_NAME
 typedef struct {
   char        name[SAM_ERROR_NAME];
   const char *unit;
@@ -30,7 +30,7 @@ typedef struct {
 
 /* SamErrorTable - the rows, and how they were found. */
 #define SAM_ERROR_ROWS  64  /* most numbers of a step with errors */
-#define SAM_ERROR_TABLE 192 /* most rows, with those of derivatives */
+#define SAM_ERROR_TABLE 512 /* most rows, with those of derivatives */
 typedef struct {
   PetscInt    count;
   SamErrorRow row[SAM_ERROR_TABLE];

@@ -14,6 +14,7 @@
 */
 typedef struct {
   const char *name, *unit, *unit_of_row; /* on one row of cells; NULL: as SamUnitOn() has it */
+  const char *number;                    /* its name among the numbers of a step; NULL: the same */
   PetscBool   all;                       /* true: of all steps unless others are given; false: of the last one */
   PetscErrorCode (*add)(SamBackStep *at);
   PetscErrorCode (*check)(SamProblem problem, const char name[]);

@@ -167,7 +167,7 @@ PetscErrorCode SamObjectiveRegister(const SamObjective *objective)
 static PetscErrorCode RegisterAll(void)
 {
   const SamObjective own[] = {
-    {.name = "energy", .unit = "J", .all = PETSC_TRUE, .add = AddEnergy},
+    {.name = "energy", .unit = "J", .number = "dissipated_energy", .all = PETSC_TRUE, .add = AddEnergy},
     {.name = "wear_volume", .unit = "m3", .add = AddVolume, .check = CheckVolume},
     {.name = "pressure_norm", .unit = "Pa m^(1/4)", .unit_of_row = "Pa m^(1/8)", .add = AddNorm}};
   SamObjective one;

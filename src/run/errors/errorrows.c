@@ -173,9 +173,10 @@ static void FindLimits(SamErrors e, const SamStateNumber *number, SamErrorRow *r
   if (row->grows[SAM_CAUSE_STEPS]) row->of[SAM_CAUSE_STEPS] = PetscMax(1, row->of[SAM_CAUSE_STEPS]);
 }
 
-/* Adds a row to the table, with so large an error by the cells, in the unit. */
-static void Add(SamSimulation s, const SamStateNumber *number, const char unit[], double value, double least,
-                const double run[SAM_RUNS], double cells)
+/* Adds a row to the table, with so large an error by the cells, in the unit; `of`: the number whose errors in closed
+   form count. */
+static void Add(SamSimulation s, const SamStateNumber *number, const char of[], const char unit[], double value,
+                double least, const double run[SAM_RUNS], double cells)
 {
   const SamErrors  e     = s->errors;
   const SamDoubts *d     = e->closed;
@@ -186,7 +187,8 @@ static void Add(SamSimulation s, const SamStateNumber *number, const char unit[]
   SamErrorRow     *row = &t->row[t->count];
 
   for (SamCause c = 0; c < SAM_CAUSES; c++) {
-    closed[c] = SamDoubtsOf(d, number->name, c, &known[c]);
+    closed[c] = SamDoubtsOf(d, of, c, &known[c]);
+    known[c]  = known[c] && of == number->name ? PETSC_TRUE : PETSC_FALSE;
     most      = PetscMax(most, closed[c]);
   }
   for (PetscInt k = 0; k < t->count; k++)
@@ -212,16 +214,16 @@ static void Add(SamSimulation s, const SamStateNumber *number, const char unit[]
 void SamErrorsAddRow(SamSimulation s, const SamStateNumber *number, const char unit[], double value, double least,
                      const double run[SAM_RUNS])
 {
-  Add(s, number, unit, value, least, run, SamErrorsByCells(s, number, value, run));
+  Add(s, number, number->name, unit, value, least, run, SamErrorsByCells(s, number, value, run));
 }
 
-void SamErrorsAddDerivative(SamSimulation s, const SamStateNumber *number, double value, double least,
+void SamErrorsAddDerivative(SamSimulation s, const SamStateNumber *number, const char of[], double value, double least,
                             const double run[SAM_RUNS], double *error)
 {
   const SamErrorTable *t      = &s->errors->table;
   const PetscInt       before = t->count;
 
-  Add(s, number, number->unit, value, least, run, SamErrorOfDerivative(value, run));
+  Add(s, number, of, number->unit, value, least, run, SamErrorOfDerivative(value, run));
   *error = t->count > before ? t->row[before].error * t->row[before].scale : NAN;
 }
 

@@ -42,7 +42,7 @@ static PetscInt FindStep(SamSimulation s, SamSimulation run, PetscInt step)
 static PetscBool FindSteps(SamSimulation s, SamSimulation run, const SamObjective *objective, PetscInt steps[2])
 {
   const PetscInt first = s->gradients.steps[0] - 1, last = s->gradients.steps[1] - 1, end = FindStep(s, run, last);
-  const PetscInt before = first == last ? end - 1 : FindStep(s, run, first - 1);
+  const PetscInt before = first == last && !objective->all ? end - 1 : FindStep(s, run, first - 1);
 
   steps[0] = first < 0 ? -1 : before + 1;
   steps[1] = end;
@@ -88,6 +88,7 @@ PetscErrorCode SamErrorsAddGradient(SamSimulation s, const SamGradientGoal *goal
 {
   const SamErrors e     = s->errors;
   const double    began = MPI_Wtime();
+  const char     *of    = goal->objective->number ? goal->objective->number : goal->name;
   double          share[SAM_RUNS][SAM_GRADIENT_SHARES];
   PetscReal       value;
   double          least;
@@ -104,7 +105,7 @@ PetscErrorCode SamErrorsAddGradient(SamSimulation s, const SamGradientGoal *goal
     SamStateNumber number = {.name = name, .unit = SamGradientUnit(s->gradient), .order = 1};
 
     (void)snprintf(name, sizeof(name), "%s_by_%s", goal->name, shares[k].name);
-    SamErrorsAddDerivative(s, &number, shares[k].share, least, run, &shares[k].error);
+    SamErrorsAddDerivative(s, &number, of, shares[k].share, least, run, &shares[k].error);
   }
   e->table.seconds += MPI_Wtime() - began;
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -54,7 +54,8 @@ struct _n_SamErrors {
   SamErrorsPrescribes - returns true if the step prescribes the number of this name.
   SamErrorsAddRow - adds a row to the table; `least`: value below which the number is next to nothing, unless a closed
   form says that it is wrong.
-  SamErrorsAddDerivative - adds one for the share of a gradient, and gets its error, NaN if it is unknown.
+  SamErrorsAddDerivative - adds one for the share of the gradient of the number `of`, and gets its error, NaN if it is
+  unknown. It is at least the error of `of` that is known in closed form.
   SamErrorsAddNumbers - adds the numbers of the last step, with these loads, and the sums over all steps.
   SamErrorsAddDoubts - adds the large errors of the table to those in closed form, which are told together, and warns
   of companions that ended early.
@@ -64,17 +65,17 @@ PETSC_INTERN double SamErrorsGet(SamState state, const char name[]);
 PETSC_INTERN void   SamErrorsBegin(SamErrorLargest *largest, const SamControl *control);
 PETSC_INTERN void   SamErrorsRaise(SamErrorLargest *largest, SamState state);
 PETSC_INTERN void SamErrorsGetRuns(SamErrors errors, const SamErrorNumber *number, PetscBool sum, double run[SAM_RUNS]);
-PETSC_INTERN double         SamErrorsLeast(SamSimulation simulation, const SamStateNumber *number);
-PETSC_INTERN PetscBool      SamErrorsYields(SamSimulation simulation);
-PETSC_INTERN double         SamErrorsByCells(SamSimulation simulation, const SamStateNumber *number, double value,
-                                             const double run[SAM_RUNS]);
-PETSC_INTERN double         SamErrorsRelativeBySteps(SamSimulation simulation, const SamErrorNumber *number,
-                                                     const double run[SAM_RUNS]);
-PETSC_INTERN PetscBool      SamErrorsPrescribes(const SamControl *control, const char name[]);
-PETSC_INTERN void           SamErrorsAddRow(SamSimulation simulation, const SamStateNumber *number, const char unit[],
-                                            double value, double least, const double run[SAM_RUNS]);
-PETSC_INTERN void           SamErrorsAddDerivative(SamSimulation simulation, const SamStateNumber *number, double value,
-                                                   double least, const double run[SAM_RUNS], double *error);
+PETSC_INTERN double    SamErrorsLeast(SamSimulation simulation, const SamStateNumber *number);
+PETSC_INTERN PetscBool SamErrorsYields(SamSimulation simulation);
+PETSC_INTERN double    SamErrorsByCells(SamSimulation simulation, const SamStateNumber *number, double value,
+                                        const double run[SAM_RUNS]);
+PETSC_INTERN double    SamErrorsRelativeBySteps(SamSimulation simulation, const SamErrorNumber *number,
+                                                const double run[SAM_RUNS]);
+PETSC_INTERN PetscBool SamErrorsPrescribes(const SamControl *control, const char name[]);
+PETSC_INTERN void      SamErrorsAddRow(SamSimulation simulation, const SamStateNumber *number, const char unit[],
+                                       double value, double least, const double run[SAM_RUNS]);
+PETSC_INTERN void      SamErrorsAddDerivative(SamSimulation simulation, const SamStateNumber *number, const char of[],
+                                              double value, double least, const double run[SAM_RUNS], double *error);
 PETSC_INTERN PetscErrorCode SamErrorsAddNumbers(SamSimulation simulation, const SamControl *control);
 PETSC_INTERN PetscErrorCode SamErrorsAddDoubts(SamErrors errors, SamAdvice *advice);
 /* SamErrorsCompareSteps - updates the error of a number by the steps, at a moment that SAM_RUN_OTHER shares with the

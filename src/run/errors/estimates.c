@@ -24,6 +24,9 @@
   scatter have any ratio. Of 634 derivatives of 58 random problems with errors above 0.5 % (spheres, ellipsoids and pads
   of 32 to 64 cells, similar and dissimilar; against the mean of two grids of three times finer cells and steps) this
   covers 88 %, with a median of the ratio of estimate and error of 2.8; the whole estimate covers 96 %, with 5.4.
+  Without a run on a quarter of the cells, as where a contact only just fits on the grid, half of the difference that is
+  left covers 64 % of 217 derivatives of 51 spheres; all of it is taken then, and also where the run on half the cells
+  has lost what is derived.
 
   Steps: the difference between two runs on the same coarse cells, one of which has half as many steps, or twice as
   many.
@@ -51,7 +54,9 @@ double SamErrorOfSeries(double least, double own, const double run[SAM_RUNS])
 
 double SamErrorOfDerivative(double own, const double run[SAM_RUNS])
 {
-  return SamErrorByCells(PETSC_FALSE, own, run) / 2;
+  const PetscBool less = isnan(run[SAM_RUN_QUARTER]) || run[SAM_RUN_HALF] == 0 ? PETSC_TRUE : PETSC_FALSE;
+
+  return SamErrorByCells(PETSC_FALSE, own, run) / (less ? 1 : 2);
 }
 
 double SamErrorBySteps(const double run[SAM_RUNS], SamRunKind same)

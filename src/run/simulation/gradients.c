@@ -129,12 +129,11 @@ static PetscErrorCode CheckFriction(SamSimulation s)
 PetscErrorCode SamSimulationBeginGradients(SamSimulation s)
 {
   const PetscInt count = SamSimulationCountSteps(s);
-  const PetscInt first = s->gradients.steps[0], last = s->gradients.steps[1], end = last ? last : count;
+  const PetscInt first = s->gradients.steps[0], last = s->gradients.steps[1];
 
   PetscFunctionBegin;
   if (!s->gradients.count) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCheck(first >= 0 && first <= end && (last == 0 || last >= PetscMax(first, 1)) && end <= count, s->comm,
-             SAM_ERR_USER,
+  PetscCheck((first == 0 && last == 0) || (first >= 1 && first <= last && last <= count), s->comm, SAM_ERR_USER,
              "-gradient_steps %" PetscInt_FMT ",%" PetscInt_FMT ": the history has %" PetscInt_FMT
              " steps: give the first and the last one, from 1 on",
              first, last, count);
