@@ -45,6 +45,16 @@ def test_fields_are_the_nearest_singles(folder, petsam, ranks, more):
         assert (folder / "out.h5").stat().st_size < 0.7 * (folder / "double.h5").stat().st_size
 
 
+@pytest.mark.parametrize("ranks", [2, 3])
+def test_many_chunks_are_written_by_several_ranks(folder, petsam, ranks):
+    """HDF5's metadata of these steps are more than it keeps by itself until the file is flushed."""
+    write_history(folder, 8)
+    case = dict(CASE, grid_n=96, output_chunk=8, output_fields="all")
+    petsam(case, dict(output="one.h5"))
+    petsam(case, ranks=ranks)
+    assert not differences(folder / "one.h5", folder / "out.h5")
+
+
 def test_readers_cope_with_singles(folder, petsam):
     """Sums over a field are of doubles; the stresses are those of doubles to single precision."""
     case = dict(CASE, grid_n=32, output_every=8)

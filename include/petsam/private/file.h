@@ -27,8 +27,8 @@ struct _n_SamFile {
   PetscMPIInt rank;
   hid_t       id, transfer; /* the file; property list for collective transfer */
   /* status */
-  off_t       reserved_begin; /* the file ended here before space was last reserved; its space begins here */
-  off_t       reserved_end;   /* on rank 0: the end of that space */
+  off_t       reserved_begin; /* on rank 0: the file ended here before space was last reserved; its space begins here */
+  off_t       reserved_end;   /* the end of that space */
   PetscBool   failed;         /* on this rank; on all ranks after SamFileEnd() or SamFileAgree() */
   char        reason[256];    /* reason of the first failure */
   H5E_auto2_t print;          /* HDF5's own error output, to be restored by SamFileEnd() */
@@ -121,8 +121,8 @@ typedef struct {
 /*
   SamFileWriteBlock, SamFileReadBlock - write or read this rank's block of a dataset.
   SamFileWriteNotZero - writes this rank's block of a new frame, (1, rows, columns), without its first and last rows if
-  these are zero in all bytes and the file has zeros there already: in new chunks in reserved space. `bytes`: the size
-  of a value in memory.
+  these are zero in all bytes: the frame was never written, and its space has zeros. Whether that is so is not looked up
+  in the file, as HDF5's metadata must be used by all ranks alike. `bytes`: the size of a value in memory.
 */
 PETSC_INTERN void SamFileWriteNotZero(SamFile file, hid_t dataset, hid_t type, size_t bytes, const SamBlock *block,
                                       const void *values);

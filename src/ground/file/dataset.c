@@ -231,29 +231,14 @@ void SamFileReadBlock(SamFile f, hid_t dataset, hid_t type, const SamBlock *bloc
   (void)SamFileNote(f, H5Sclose(memory));
 }
 
-/*
-  True if nothing was ever written to the chunks of a rank's block in one frame: they lie in the space that was last
-  reserved, where the file had ended before. Compressed chunks must be written.
-*/
-static PetscBool AreNew(SamFile f, hid_t dataset, const SamBlock *b)
+/* True if a dataset is compressed: then its chunks have no zeros before they are written. */
+static PetscBool IsCompressed(SamFile f, hid_t dataset)
 {
   const hid_t creation = SamFileNote(f, H5Dget_create_plist(dataset));
-  hsize_t     chunk[3], at[3] = {b->start[0], 0, 0};
-  PetscBool   is_new =
-    f->reserved_begin > 0 && H5Pget_chunk(creation, 3, chunk) == 3 && chunk[0] == 1 && H5Pget_nfilters(creation) == 0;
+  const int   filters  = H5Pget_nfilters(creation);
 
   (void)SamFileNote(f, H5Pclose(creation));
-  for (at[1] = is_new ? b->start[1] / chunk[1] * chunk[1] : 0; is_new && at[1] < b->start[1] + b->count[1];
-       at[1] += chunk[1])
-    for (at[2] = 0; is_new && at[2] < b->count[2]; at[2] += chunk[2]) {
-      haddr_t  address = HADDR_UNDEF;
-      hsize_t  bytes   = 0;
-      unsigned filters = 0;
-
-      is_new = SamFileNote(f, H5Dget_chunk_info_by_coord(dataset, at, &filters, &address, &bytes)) >= 0 &&
-               address != HADDR_UNDEF && address >= (haddr_t)f->reserved_begin;
-    }
-  return is_new;
+  return filters > 0 ? PETSC_TRUE : PETSC_FALSE;
 }
 
 static PetscBool IsZero(const char bytes[], size_t n)
@@ -272,7 +257,7 @@ void SamFileWriteNotZero(SamFile f, hid_t dataset, hid_t type, size_t bytes, con
     left.count[1]--;
   }
   while (left.count[1] > 0 && IsZero(from + row * (size_t)(left.count[1] - 1), row)) left.count[1]--;
-  if (left.count[1] < block->count[1] && AreNew(f, dataset, block))
+  if (left.count[1] < block->count[1] && !IsCompressed(f, dataset))
     SamFileWriteBlock(f, dataset, type, &left, from);
   else
     SamFileWriteBlock(f, dataset, type, block, values);

@@ -230,7 +230,6 @@ PetscErrorCode SamFileReserve(SamFile f, off_t bytes)
   PetscFunctionBegin;
   if (f->rank == 0) error = ReserveInFile(f, SAM_FILE_METADATA + bytes);
   PetscCall(SamFileRaise(f->grid, f->option, f->filename, error));
-  PetscCallMPI(MPI_Bcast(&f->reserved_begin, (PetscMPIInt)sizeof(f->reserved_begin), MPI_BYTE, 0, f->comm));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -66,6 +66,21 @@ hid_t SamFileNote(SamFile f, hid_t result)
 
 /* ---- the file ---- */
 
+/*
+  Lets HDF5 write its metadata only when the file is flushed. By itself it also does so whenever so many bytes of them
+  have changed since the last time. That is in the middle of a step, and as the ranks count these bytes differently, some
+  begin, wait for the others, and none goes on (HDF5 1.10.8, at 256 kB).
+*/
+#define MOST_CHANGED (32 << 20) /* bytes; HDF5 allows no more */
+static void WriteOnlyInFlushes(SamFile f, hid_t access)
+{
+  H5AC_cache_config_t cache = {.version = H5AC__CURR_CACHE_CONFIG_VERSION};
+
+  (void)SamFileNote(f, H5Pget_mdc_config(access, &cache));
+  cache.dirty_bytes_threshold = MOST_CHANGED;
+  (void)SamFileNote(f, H5Pset_mdc_config(access, &cache));
+}
+
 /* Opens a file. Reading is not collective: it may fail on some ranks for a damaged file, and no other rank must
    wait. */
 static PetscErrorCode OpenFile(SamFile f, SamFileMode mode)
@@ -80,6 +95,7 @@ static PetscErrorCode OpenFile(SamFile f, SamFileMode mode)
   if (!f->grid) (void)SamFileNote(f, H5Pset_file_locking(access, 0, 1)); /* MPI-IO does not lock the file either */
 #endif
   (void)SamFileNote(f, H5Pset_fclose_degree(access, H5F_CLOSE_STRONG));
+  if (f->writing) WriteOnlyInFlushes(f, access);
   creation = SamFileNote(f, H5Pcreate(H5P_FILE_CREATE));
   if (mode == SAM_FILE_CREATE_SEALED) (void)SamFileNote(f, H5Pset_userblock(creation, SAM_SEAL));
   f->transfer = SamFileNote(f, H5Pcreate(H5P_DATASET_XFER));
