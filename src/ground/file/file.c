@@ -68,8 +68,8 @@ hid_t SamFileNote(SamFile f, hid_t result)
 
 /*
   Lets HDF5 write its metadata only when the file is flushed. By itself it also does so whenever so many bytes of them
-  have changed since the last time. That is in the middle of a step, and as the ranks count these bytes differently, some
-  begin, wait for the others, and none goes on (HDF5 1.10.8, at 256 kB).
+  have changed since the last time. That is in the middle of a step, and as the ranks count these bytes differently,
+  some begin, wait for the others, and none goes on (HDF5 1.10.8, at 256 kB).
 */
 #define MOST_CHANGED (32 << 20) /* bytes; HDF5 allows no more */
 static void WriteOnlyInFlushes(SamFile f, hid_t access)

@@ -121,7 +121,7 @@ static double SeriesBytes(double rows, hsize_t chunk, hsize_t numbers)
   return ceil(rows / (double)chunk) * (double)(chunk * numbers * sizeof(double));
 }
 
-#define STRUCTURE 100e3 /* bytes of an empty file */
+#define STRUCTURE 136e3 /* bytes of an empty file */
 #define INDEX     64    /* bytes per chunk in HDF5's indices */
 PetscErrorCode SamOutputForecast(SamOutput o, double steps, double saved, double *bytes)
 {
