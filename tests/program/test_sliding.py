@@ -47,6 +47,18 @@ def test_ratios_of_a_cycle_are_those_of_the_closed_form(results):
     assert found.loss_factor == pytest.approx(found.energy / (np.pi * found.force * found.displacement), rel=1e-8)
 
 
+def test_a_cycle_of_two_steps_has_no_width(solve, path, tmp_path):
+    """It is a line, whose energy is known: by friction, as that of a cycle of more steps."""
+    rows = [(0, 0.0), *((k, float(turn * AMPLITUDE * LIMIT)) for k, turn in enumerate((1, -1, 1), 1))]
+    line = solve(CASE, history(tmp_path / "h.csv", "time,load_tx", *rows), dict(steps=1)).path
+    found = []
+    for name in (line, path):
+        with petsam.open(name) as results:
+            found.append(sliding.numbers(results, cycles.find(results).numbered(-1)))
+    assert np.isnan(found[0].sliding_ratio) and np.isnan(found[0].loss_factor)
+    assert found[0].energy == pytest.approx(found[1].energy, rel=1e-2) and found[1].sliding_ratio > 0.1
+
+
 def test_a_sphere_passes_the_published_ratios_on_its_way_to_gross_slip():
     half, top = branch(1.0)
     assert loop.partial_loop_energy(1.0, 1.0, 1.0) / (4.0 * top) == pytest.approx(0.2)

@@ -19,6 +19,7 @@ is an ellipse, whose secant is the storage modulus and whose loss factor is the 
 loss factor is twice the damping as a part of critical damping of a mass on that spring.
 """
 
+import math
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, NamedTuple, Optional
 
@@ -51,7 +52,8 @@ class Numbers(NamedTuple):
     energy_ratio : float
         That energy relative to the product of the ranges.
     sliding_ratio : float
-        Width of the loop at mean load relative to the range of the displacement.
+        Width of the loop at mean load relative to the range of the displacement; NaN of a cycle of fewer than 3 steps,
+        which is a line.
     regime : str
         One of REGIMES.
     friction : float
@@ -59,7 +61,7 @@ class Numbers(NamedTuple):
     viscous : float
         Energy that the bodies dissipate in it, of all loads, J; 0 if none relaxes.
     loss_factor : float
-        `energy` relative to 2 pi times the energy that a spring of the loop's secant stiffness stores.
+        `energy` relative to 2 pi times the energy that a spring of the loop's secant stiffness stores; NaN as above.
     """
 
     force: float
@@ -147,7 +149,7 @@ def _stored(way, force, times):
     """
     durations, way, force = np.diff(times), way[1:], force[1:]
     if way.size < STEPS:
-        return 0.0
+        return math.nan
     high, low = (_tip(way, force, durations, int(find(way))) for find in (np.argmax, np.argmin))
     return float((high[0] - low[0]) * (high[1] - low[1])) / 8.0
 
@@ -204,7 +206,8 @@ def numbers(results: "Results", cycle: Cycle, pair: Optional[str] = None) -> Num
     if cycle.first < 0:  # the state before the first step, where it begins, has no row
         points = [np.insert(one, 0, one[0]) for one in points]
     stored = _stored(*points)
-    lost = energy / (2.0 * np.pi * stored) if stored > 0.0 else 0.0
+    lost = 0.0 if stored <= 0.0 else energy / (2.0 * np.pi * stored)
+    width = math.nan if points[0].size <= STEPS else width  # with the point at which it closes
     amplitudes = 0.5 * float(np.ptp(force)), 0.5 * float(np.ptp(way))
     return Numbers(*amplitudes, energy, ratio, width, regime(results, rows), *dissipated(results, cycle), lost)
 
