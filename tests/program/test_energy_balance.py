@@ -159,7 +159,7 @@ def test_shear_that_is_locked_in_while_n_grows_is_right_in_parts(unlike, wrong):
     assert abs(force[one] / force[many] - 1) > wrong
     assert force[parts] == pytest.approx(force[many], rel=0.02)
     exact = many["dissipated_energy"].sum()
-    assert 0.4 * abs(one["dissipated_energy"].sum() - exact) < one["energy_error"].sum()
+    assert 0.3 * abs(one["dissipated_energy"].sum() - exact) < one["energy_error"].sum()
     assert parts["dissipated_energy"].sum() == pytest.approx(exact, rel=0.1)
 
 

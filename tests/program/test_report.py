@@ -193,8 +193,9 @@ def test_worst_residuals_are_those_of_the_history(petsam, tmp_path):
         for kind in ("normal", "tangential", "equilibrium"):
             value, step = re.search(rf"worst .*\b{kind} (\S+) \(step (\d+)\)", text).groups()
             column = f["history"][f"{kind}_residual"][:]
-            assert float(value) == pytest.approx(column.max(), rel=6e-3)
-            assert column[int(step) - 1] == column.max()
+            rounding = 1e-14 if kind == "equilibrium" else 0.0
+            assert float(value) == pytest.approx(column.max(), rel=6e-3, abs=rounding)
+            assert column[int(step) - 1] >= column.max() - rounding
 
 
 LIFE = dict(wear_coefficient1=1e-13, wear_cycles=10.0)

@@ -260,7 +260,7 @@ def test_the_head_has_bodies_loads_friction_and_units(page):
     assert "E 72 GPa" in shown and "SI with prefixes" in shown and "Gapsphere" in shown
     [ends] = re.findall(r'load_tx <data value="(.*?)">.*? to <data value="(.*?)">', head)
     low, high = map(float, ends)
-    assert (low, high) == (-AMPLITUDE, AMPLITUDE)
+    assert (low, high) == pytest.approx((-AMPLITUDE, AMPLITUDE), rel=1e-12)
 
 
 def test_dark_screens_and_paper_have_their_own_colours(page):
