@@ -145,7 +145,7 @@ def _tip(way, force, durations, k):
 def _stored(way, force, times):
     """The energy, J, that a spring of a loop's secant stiffness stores at the amplitude of its displacement.
 
-    The first point is the beginning of the loop, which its last one closes.
+    The first point is the beginning of the loop, which its last one closes. NaN of a line, of fewer than STEPS steps.
     """
     durations, way, force = np.diff(times), way[1:], force[1:]
     if way.size < STEPS:
@@ -207,7 +207,7 @@ def numbers(results: "Results", cycle: Cycle, pair: Optional[str] = None) -> Num
         points = [np.insert(one, 0, one[0]) for one in points]
     stored = _stored(*points)
     lost = 0.0 if stored <= 0.0 else energy / (2.0 * np.pi * stored)
-    width = math.nan if points[0].size <= STEPS else width  # with the point at which it closes
+    width = math.nan if math.isnan(stored) else width
     amplitudes = 0.5 * float(np.ptp(force)), 0.5 * float(np.ptp(way))
     return Numbers(*amplitudes, energy, ratio, width, regime(results, rows), *dissipated(results, cycle), lost)
 
