@@ -251,9 +251,25 @@ def die(deadly, folder, options=None, **variables):
     return told(run.stdout), run.returncode
 
 
+@pytest.mark.parametrize("rows, saved, room", [(2, 1, 64), (70, 1, 70), (70, 40, 64), (40, 1, 80), (1500, 1, 1024)])
+def test_indices_have_room_for_all_steps(folder, rows, saved, room):
+    """HDF5 need not divide them: one of several ranks that ends while they are divided would harm the steps before."""
+    (folder / "history.csv").write_text(
+        "time,load_tx\n" + "\n".join(f"{k + 1},{10 + k % 3}" for k in range(rows)) + "\n"
+    )
+    chunk = dict(output_chunk="8,12") if room == 80 else {}
+    options = [CASE, dict(chunk, grid_n=12, output_every=saved, errors="none", output_flush=1)]
+    subprocess.run([str(conftest.PROGRAM), *flatten(options)], cwd=folder, check=True, capture_output=True,
+                   env=conftest.environment())  # fmt: skip
+    head = (folder / "out" / "out.h5").read_bytes()[:26]  # the superblock, of version 0 or 1
+    assert 2 * (int.from_bytes(head[24:], "little") if head[8] else 32) == room
+    with h5py.File(folder / "out" / "out.h5") as f:
+        assert len(f["pressure"]) == (rows if saved == 1 else 2)
+
+
 @pytest.mark.slow
 def test_no_write_of_a_step_harms_the_steps_before(deadly, folder):
-    """Of the step at which HDF5 divides the nodes of its indices, which hold 64 chunks, and of a common one.
+    """Of the step that would divide HDF5's usual indices, which have room for 64 chunks, and of a common one.
 
     HDF5 writes some hundred pieces a step; a run that is killed before any of them leaves the steps that were told.
     """
@@ -325,7 +341,7 @@ def test_no_write_of_a_step_without_fields_harms_the_steps_before(deadly, folder
         with h5py.File(folder / "out" / "out.h5") as f:
             assert f["history/time"][:steps].tolist() == [k + 1.0 for k in range(steps)]
             assert all(len(column[:]) >= steps for column in f["history"].values())
-    assert tried > 10
+    assert tried > 5  # fewer where the steps are slow, as fewer are then written together
 
 
 @pytest.mark.parametrize(

@@ -247,7 +247,7 @@ static void test_zeros_that_are_not_written_read_as_zeros(void **state)
     SamFile f;
     hid_t   dataset;
 
-    sam_call(SamFileOpen(grid, SAM_EVENT_OUTPUT, "output", filename, SAM_FILE_CREATE, &f));
+    sam_call(SamFileOpen(grid, SAM_EVENT_OUTPUT, "output", filename, SAM_FILE_CREATE, NULL, &f));
     sam_call(SamFileBegin(f));
     dataset = SamFileCreateDataset(f, f->id, &label, H5T_IEEE_F64LE, &shape, compress);
     (void)SamFileNote(f, H5Dset_extent(dataset, first));

@@ -35,13 +35,24 @@ struct _n_SamFile {
   void       *print_data;
 };
 
+/* The datasets of a file that grow, those with three dimensions and with one, and the most chunks that one of them is
+   expected to have */
+typedef struct {
+  PetscInt fields, series;
+  double   chunks;
+} SamFileGrowth;
 typedef enum { SAM_FILE_CREATE, SAM_FILE_CREATE_SEALED, SAM_FILE_READ } SamFileMode;
 /*
   SamFileOpen - opens a file to READ, or CREATEs it, replacing one of that name; CREATE_SEALED: with room for a seal.
-  `option` is not copied. `grid` NULL: on this rank alone, without MPI-IO. Collective. Errors: SAM_ERR_FILE.
+  `option` is not copied. `grid` NULL: on this rank alone, without MPI-IO. `growth` of a file that is created (NULL: its
+  datasets do not grow): HDF5's indices have room for so many chunks from the beginning, up to a limit, since a run on
+  several ranks that is killed while HDF5 divides a full index may leave a file whose earlier steps cannot be read.
+  Collective. Errors: SAM_ERR_FILE.
+  SamFileIndexBytes - returns the bytes that the indices add to HDF5's usual ones. Not collective.
 */
+PETSC_INTERN double         SamFileIndexBytes(const SamFileGrowth *growth);
 PETSC_INTERN PetscErrorCode SamFileOpen(SamGrid grid, SamEvent event, const char option[], const char filename[],
-                                        SamFileMode mode, SamFile *file);
+                                        SamFileMode mode, const SamFileGrowth *growth, SamFile *file);
 /*
   SamFileExamine - rank 0 examines an HDF5 file before all ranks open it. It rejects a file that is missing, may not be
   read or is not HDF5, and, by running petsam-examine, a file on which HDF5 crashes or does not end. Then it calls
@@ -258,6 +269,13 @@ PETSC_INTERN PetscErrorCode SamFileNameBeside(const char filename[], const char 
   Collective. Errors: SAM_ERR_FILE if the file cannot be written.
 */
 PETSC_INTERN PetscErrorCode SamFileReserve(SamFile file, off_t bytes);
+/*
+  SamFilePlaceOfEnd - returns the place of the end of data, 8 bytes, little endian, in the superblock whose first bytes
+  these are. Versions 0 and 1 have it at byte 40 or 44, and no checksum (HDF5 file format specification, II.A); 0: other
+  versions, which are left to HDF5. Not collective.
+*/
+#define SAM_FILE_SUPERBLOCK 52 /* bytes up to the end of data */
+PETSC_INTERN off_t          SamFilePlaceOfEnd(const unsigned char start[SAM_FILE_SUPERBLOCK]);
 PETSC_INTERN off_t          SamFileFindUnused(SamFile file);
 PETSC_INTERN PetscErrorCode SamFileGetSpace(SamGrid grid, const char option[], const char filename[], double *bytes);
 /*

@@ -29,6 +29,8 @@ typedef struct {
   SamContact  contact;      /* contact whose state gives the fields and /history; borrowed */
   SamState    cycles;       /* state whose numbers give a second series; borrowed */
   const char *cycles_name;  /* group of the second series; borrowed; NULL: none */
+  double      steps;        /* load steps that the file is expected to have, */
+  double      saved;        /* and how many of them with fields */
   PetscBool   errors;       /* true: errors of the numbers will be written */
   int         gradients;    /* number of the numbers whose gradients will be written */
   char      **gradient;     /* their names; borrowed */
@@ -117,11 +119,11 @@ PETSC_INTERN PetscErrorCode SamOutputWriteGradient(SamOutput output, SamGradient
 PETSC_INTERN PetscErrorCode SamOutputGetSaved(SamOutput output, PetscInt *steps, PetscInt *saved, PetscReal *time);
 /*
   SamOutputPlan - creates an object without a file, for SamOutputForecast() only. Collective.
-  SamOutputForecast - computes the size (bytes) that this file would have with `steps` load steps, `saved` of them with
-  fields, without compression. Not collective.
+  SamOutputForecast - computes the size (bytes) that this file would have with the expected steps of the settings,
+  without compression. Not collective.
 */
 PETSC_INTERN PetscErrorCode SamOutputPlan(SamGrid grid, const SamOutputSettings *settings, SamOutput *output);
-PETSC_INTERN PetscErrorCode SamOutputForecast(SamOutput output, double steps, double saved, double *bytes);
+PETSC_INTERN PetscErrorCode SamOutputForecast(SamOutput output, double *bytes);
 /* SamOutputHasReplaced - returns true if the file has replaced older results. Not collective. */
 PETSC_INTERN PetscBool SamOutputHasReplaced(SamOutput output);
 /*

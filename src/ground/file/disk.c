@@ -135,17 +135,25 @@ static off_t SizeOf(int file)
   return fstat(file, &status) ? -1 : status.st_size;
 }
 
+off_t SamFilePlaceOfEnd(const unsigned char start[SAM_FILE_SUPERBLOCK])
+{
+  const int version = start[8], address = start[13]; /* its size */
+
+  return version <= 1 && address == 8 ? 40 + 4 * version : 0;
+}
+
 /*
-  True if a run that was killed in its first flush may have left this temporary file: its first block has the HDF5
+  True if a run that was killed in its first flush may have left this temporary file: its first block has an HDF5
   version that petsam uses, and the file is shorter than the end of data that this block names.
 */
 static PetscBool IsUnfinished(int file, const char head[], size_t size)
 {
-  static const char begin[9] = "\211HDF\r\n\032\n"; /* then version 0 */
+  static const char begin[8] = {'\211', 'H', 'D', 'F', '\r', '\n', '\032', '\n'};
+  const off_t       place    = size < SAM_FILE_SUPERBLOCK ? 0 : SamFilePlaceOfEnd((const unsigned char *)head);
   uint64_t          end      = 0;
 
-  if (size < 48 || memcmp(head, begin, sizeof(begin))) return PETSC_FALSE;
-  for (int k = 7; k >= 0; k--) end = end << 8 | (unsigned char)head[40 + k];
+  if (!place || memcmp(head, begin, sizeof(begin))) return PETSC_FALSE;
+  for (int k = 7; k >= 0; k--) end = end << 8 | (unsigned char)head[place + k];
   return (uint64_t)SizeOf(file) < end;
 }
 
@@ -213,6 +221,18 @@ static int ReserveInFile(SamFile f, off_t bytes)
     f->reserved_end   = begin + bytes;
   }
   return close(file) && !error ? errno : error;
+}
+
+PetscErrorCode SamFileCheckRoom(SamFile f, double bytes)
+{
+  const int file  = f->rank == 0 ? open(f->filename, O_WRONLY) : -1;
+  int       error = 0;
+
+  PetscFunctionBegin;
+  if (f->rank == 0) error = file < 0 ? errno : Reserve(file, SAM_FILE_METADATA + (off_t)bytes, PETSC_FALSE);
+  if (file >= 0) (void)close(file);
+  PetscCall(SamFileRaise(f->grid, f->option, f->filename, error));
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 off_t SamFileFindUnused(SamFile f)

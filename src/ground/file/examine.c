@@ -265,7 +265,7 @@ static PetscErrorCode OpenAndLook(const Case *c, void *answer)
   PetscFunctionBegin;
   if (!fault) fault = FindDamage(c->filename, c->objects);
   PetscCheck(!fault, PETSC_COMM_SELF, SAM_ERR_FILE, SAM_CANNOT_READ, c->option, c->filename, fault);
-  ierr = SamFileOpen(NULL, SAM_EVENT_OUTPUT, c->option, c->filename, SAM_FILE_READ, &file);
+  ierr = SamFileOpen(NULL, SAM_EVENT_OUTPUT, c->option, c->filename, SAM_FILE_READ, NULL, &file);
   PetscCheck(!ierr, PETSC_COMM_SELF, SAM_ERR_FILE, SAM_CANNOT_READ, c->option, c->filename, damaged);
   PetscCall(SamFileBegin(file));
   ierr = c->look(file, c->question, answer);

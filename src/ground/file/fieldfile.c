@@ -160,7 +160,7 @@ static PetscErrorCode Read(const Wanted *w, double array[])
   PetscErrorCode ierr;
 
   PetscFunctionBegin;
-  PetscCall(SamFileOpen(grid, SAM_EVENT_OUTPUT, w->option, w->source->file, SAM_FILE_READ, &f));
+  PetscCall(SamFileOpen(grid, SAM_EVENT_OUTPUT, w->option, w->source->file, SAM_FILE_READ, NULL, &f));
   PetscCall(SamFileBegin(f));
   SamFileReadBlock(f, SamFileNote(f, H5Dopen2(f->id, w->source->dataset, H5P_DEFAULT)), H5T_NATIVE_DOUBLE, &block,
                    array);

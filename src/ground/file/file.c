@@ -7,6 +7,7 @@
 */
 #include "fileimpl.h"
 #include <petsam/private/grid.h>
+#include <math.h>
 
 /* ---- errors ---- */
 
@@ -67,6 +68,25 @@ hid_t SamFileNote(SamFile f, hid_t result)
 /* ---- the file ---- */
 
 /*
+  Half of the entries of a node of the indices of chunks, so that one node has room for all chunks, if it can. A node is
+  written as a whole whenever a chunk is added, and each dataset has a node of that size, however few its chunks are.
+*/
+#define HALF_NODE 32  /* HDF5's own */
+#define MOST_HALF 512 /* a node of 49 kB: all nodes of a file must be far fewer bytes than MOST_CHANGED */
+static const double entry[2] = {48, 32}; /* bytes of an entry with three dimensions, and with one */
+static unsigned     HalfNode(const SamFileGrowth *growth)
+{
+  return (unsigned)PetscClipInterval(growth ? ceil(0.5 * growth->chunks) : 0, HALF_NODE, MOST_HALF);
+}
+
+double SamFileIndexBytes(const SamFileGrowth *growth)
+{
+  return growth ? 2.0 * (double)(HalfNode(growth) - HALF_NODE) *
+                    (entry[0] * (double)growth->fields + entry[1] * (double)growth->series)
+                : 0;
+}
+
+/*
   Lets HDF5 write its metadata only when the file is flushed. By itself it also does so whenever so many bytes of them
   have changed since the last time. That is in the middle of a step, and as the ranks count these bytes differently,
   some begin, wait for the others, and none goes on (HDF5 1.10.8, at 256 kB).
@@ -83,11 +103,12 @@ static void WriteOnlyInFlushes(SamFile f, hid_t access)
 
 /* Opens a file. Reading is not collective: it may fail on some ranks for a damaged file, and no other rank must
    wait. */
-static PetscErrorCode OpenFile(SamFile f, SamFileMode mode)
+static PetscErrorCode OpenFile(SamFile f, SamFileMode mode, const SamFileGrowth *growth)
 {
   hid_t access, creation;
 
   PetscFunctionBegin;
+  if (SamFileIndexBytes(growth) > 0) PetscCall(SamFileCheckRoom(f, SamFileIndexBytes(growth)));
   PetscCall(SamFileBegin(f));
   access = SamFileNote(f, H5Pcreate(H5P_FILE_ACCESS));
   if (f->grid) (void)SamFileNote(f, H5Pset_fapl_mpio(access, f->comm, MPI_INFO_NULL));
@@ -98,6 +119,7 @@ static PetscErrorCode OpenFile(SamFile f, SamFileMode mode)
   if (f->writing) WriteOnlyInFlushes(f, access);
   creation = SamFileNote(f, H5Pcreate(H5P_FILE_CREATE));
   if (mode == SAM_FILE_CREATE_SEALED) (void)SamFileNote(f, H5Pset_userblock(creation, SAM_SEAL));
+  if (HalfNode(growth) > HALF_NODE) (void)SamFileNote(f, H5Pset_istore_k(creation, HalfNode(growth)));
   f->transfer = SamFileNote(f, H5Pcreate(H5P_DATASET_XFER));
   if (f->writing) (void)SamFileNote(f, H5Pset_dxpl_mpio(f->transfer, H5FD_MPIO_COLLECTIVE));
   if (f->writing)
@@ -112,7 +134,7 @@ static PetscErrorCode OpenFile(SamFile f, SamFileMode mode)
 }
 
 PetscErrorCode SamFileOpen(SamGrid grid, SamEvent event, const char option[], const char filename[], SamFileMode mode,
-                           SamFile *file)
+                           const SamFileGrowth *growth, SamFile *file)
 {
   SamFile        f;
   PetscErrorCode ierr;
@@ -128,7 +150,7 @@ PetscErrorCode SamFileOpen(SamGrid grid, SamEvent event, const char option[], co
   f->id = f->transfer = -1;
   PetscCallMPI(MPI_Comm_rank(f->comm, &f->rank));
   PetscCall(PetscStrallocpy(filename, &f->filename));
-  ierr = OpenFile(f, mode);
+  ierr = OpenFile(f, mode, growth);
   if (ierr) {
     f->id = -1; /* left open, as closing would wait for a rank that could not open the file */
     (void)SamFileDestroy(&f, PETSC_TRUE);

@@ -18,6 +18,9 @@ PETSC_INTERN void SamFileRemoveLeftOvers(SamFile file);
 */
 PETSC_INTERN PetscErrorCode SamFileRaise(SamGrid grid, const char option[], const char filename[], int error);
 
+/* SamFileCheckRoom - checks that a created file has room for so many bytes. Collective. Errors: SAM_ERR_FILE. */
+PETSC_INTERN PetscErrorCode SamFileCheckRoom(SamFile file, double bytes);
+
 #define SAM_CHECKPOINT_FORMAT 8 /* version of a checkpoint's contents */
 
 /* SamSealIsOne - returns true if the first bytes of a file are a seal. Not collective. */

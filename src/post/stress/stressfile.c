@@ -143,7 +143,7 @@ PetscErrorCode SamStressFileCreate(SamGrid grid, const char filename[], const Sa
   PetscCall(SamFileNameTemporary(filename, &s->temporary));
   PetscCall(SamFileCheckName(grid, OPTION, filename, SAM_FILE_RESULTS));
   PetscCall(SamFileLockTake(grid, OPTION, s->temporary, SAM_FILE_TEMPORARY, &s->hold));
-  PetscCall(SamFileOpen(grid, SAM_EVENT_OUTPUT, OPTION, s->temporary, SAM_FILE_CREATE, &s->f));
+  PetscCall(SamFileOpen(grid, SAM_EVENT_OUTPUT, OPTION, s->temporary, SAM_FILE_CREATE, NULL, &s->f));
   PetscCall(SamFileReserve(s->f, Bytes(s)));
   PetscCall(SamFileBegin(s->f));
   CreateAll(s, parameters);

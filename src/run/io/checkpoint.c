@@ -282,7 +282,7 @@ static PetscErrorCode WriteFile(SamCheckpoint cp, SamContact contact, const SamC
   PetscErrorCode ierr;
 
   PetscFunctionBegin;
-  PetscCall(SamFileOpen(cp->grid, SAM_EVENT_CHECKPOINT, OPTION, cp->temporary, SAM_FILE_CREATE_SEALED, &f));
+  PetscCall(SamFileOpen(cp->grid, SAM_EVENT_CHECKPOINT, OPTION, cp->temporary, SAM_FILE_CREATE_SEALED, NULL, &f));
   ierr = WriteAll(f, contact, rest);
   if (ierr) (void)SamFileDestroy(&f, PETSC_TRUE);
   PetscCall(ierr);
@@ -536,7 +536,7 @@ static PetscErrorCode ReadFile(SamContact contact, const char filename[], const 
   PetscFunctionBegin;
   PetscCall(PetscMemzero(c, sizeof(*c)));
   PetscCall(SamSealCheck(grid, "restart", filename));
-  PetscCall(SamFileOpen(grid, SAM_EVENT_CHECKPOINT, "restart", filename, SAM_FILE_READ, &f));
+  PetscCall(SamFileOpen(grid, SAM_EVENT_CHECKPOINT, "restart", filename, SAM_FILE_READ, NULL, &f));
   ierr = ReadAll(f, contact, rest, sums, c);
   if (ierr) (void)SamFileDestroy(&f, PETSC_TRUE);
   PetscCall(ierr);

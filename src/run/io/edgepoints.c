@@ -8,8 +8,6 @@
 #include <hdf5_hl.h>
 #include <math.h>
 
-#define CHUNK 256 /* points */
-
 static const SamLabel point_label      = {"point", "1", "point of an edge"},
                       coordinate_label = {"coordinate", "1", "x and y of a point"};
 
@@ -24,7 +22,7 @@ static hid_t CreateScale(SamOutput o, const SamLabel *label, const SamShape *sha
 
 void SamOutputCreatePointScales(SamOutput o)
 {
-  const SamShape point = {1, {0}, {H5S_UNLIMITED}, {CHUNK}, NULL}, coordinate = {1, {2}, {2}, {0}, NULL};
+  const SamShape point = {1, {0}, {H5S_UNLIMITED}, {SAM_OUTPUT_POINTS}, NULL}, coordinate = {1, {2}, {2}, {0}, NULL};
   hid_t          scales[3];
 
   scales[0] = o->time;
@@ -39,7 +37,7 @@ void SamOutputCreatePointScales(SamOutput o)
 hid_t SamOutputCreatePoints(SamOutput o, const SamLabel *label)
 {
   const double   nothing = NAN;
-  const SamShape shape   = {3, {0, 0, 2}, {H5S_UNLIMITED, H5S_UNLIMITED, 2}, {1, CHUNK, 2}, &nothing};
+  const SamShape shape   = {3, {0, 0, 2}, {H5S_UNLIMITED, H5S_UNLIMITED, 2}, {1, SAM_OUTPUT_POINTS, 2}, &nothing};
 
   return SamFileCreateDataset(o->f, o->f->id, label, H5T_IEEE_F64LE, &shape, 0);
 }

@@ -80,7 +80,8 @@ PETSC_INTERN PetscErrorCode SamOutputAppendGradient(SamOutput output, SamGradien
 
 #define SAM_IDENTITY "results-%016" PRIx64 /* identity of a file, as text */
 
-#define SAM_OUTPUT_WAIT 256 /* maximum number of steps that wait to be written, a chunk of the series */
+#define SAM_OUTPUT_POINTS 256 /* points of an edge per chunk */
+#define SAM_OUTPUT_WAIT   256 /* maximum number of steps that wait to be written, a chunk of the series */
 
 struct _n_SamOutput {
   SamGrid           grid;
@@ -115,6 +116,8 @@ struct _n_SamOutput {
   mark of the file. Notes its failures. Collective.
 */
 PETSC_INTERN PetscErrorCode SamOutputCreateLayout(SamOutput output);
+/* SamOutputGrowth - returns how the file's datasets are expected to grow. Not collective. */
+PETSC_INTERN SamFileGrowth SamOutputGrowth(SamOutput output);
 /* SamOutputPlanes - returns the number of planes of cells that a field has per step. Not collective. */
 PETSC_INTERN hsize_t SamOutputPlanes(SamOutput output, PetscInt field);
 /* SamOutputFieldBytes - returns the size of the fields of one step, uncompressed. Not collective. */

@@ -123,15 +123,45 @@ static double SeriesBytes(double rows, hsize_t chunk, hsize_t numbers)
 
 #define STRUCTURE 136e3 /* bytes of an empty file */
 #define INDEX     64    /* bytes per chunk in HDF5's indices */
-PetscErrorCode SamOutputForecast(SamOutput o, double steps, double saved, double *bytes)
+
+/* Returns the chunks of one plane of a field of cells in one step. */
+static double PlaneChunks(SamOutput o)
 {
-  const SamState state = o->state[SAM_SERIES_HISTORY];
-  const SamShape shape = FieldShape(o->grid, &o->set);
-  double         index = INDEX;
+  const SamShape shape  = FieldShape(o->grid, &o->set);
+  double         chunks = 1;
+
+  for (int d = 1; d < 3; d++) chunks *= (double)((shape.size[d] + shape.chunk[d] - 1) / shape.chunk[d]);
+  return chunks;
+}
+
+SamFileGrowth SamOutputGrowth(SamOutput o)
+{
+  const double  points = EDGE * (double)(o->grid->nx + o->grid->ny) / SAM_OUTPUT_POINTS;
+  SamFileGrowth growth = {0, 1, o->set.steps / CHUNK_MATRICES}; /* beside the fields and numbers: time */
+
+  for (PetscInt f = 0; f < SamOutputCount(o); f++) {
+    const PetscBool are = SamOutputResult(o, f)->kind == SAM_FIELD_POINTS ? PETSC_TRUE : PETSC_FALSE;
+
+    if (!o->wants[f]) continue;
+    growth.fields++;
+    growth.chunks =
+      PetscMax(growth.chunks, o->set.saved * (are ? ceil(points) : PlaneChunks(o) * (double)SamOutputPlanes(o, f)));
+  }
+  for (PetscInt k = 0; k < SAM_SERIES; k++)
+    for (PetscInt c = 0; o->state[k] && c < SamStateCountNumbers(o->state[k]); c++)
+      growth.series += SamStateNumberOf(o->state[k], c, NULL)->result ? 1 : 0;
+  return growth;
+}
+
+PetscErrorCode SamOutputForecast(SamOutput o, double *bytes)
+{
+  const SamState      state  = o->state[SAM_SERIES_HISTORY];
+  const SamFileGrowth growth = SamOutputGrowth(o);
+  const double        index = INDEX * PlaneChunks(o), steps = o->set.steps, saved = o->set.saved;
 
   PetscFunctionBegin;
-  for (int d = 1; d < 3; d++) index *= (double)((shape.size[d] + shape.chunk[d] - 1) / shape.chunk[d]);
-  *bytes = STRUCTURE + SeriesBytes(saved, CHUNK_STEPS, 1) + saved * (double)SamOutputFieldBytes(o);
+  *bytes = STRUCTURE + SamFileIndexBytes(&growth) + SeriesBytes(saved, CHUNK_STEPS, 1) +
+           saved * (double)SamOutputFieldBytes(o);
   for (PetscInt f = 0; f < SamOutputCount(o); f++)
     *bytes += o->wants[f] ? saved * index * (double)SamOutputPlanes(o, f) : 0;
   for (PetscInt c = 0; c < SamStateCountNumbers(state); c++) {

@@ -395,7 +395,7 @@ PetscErrorCode SamResultsOpen(MPI_Comm comm, const char option[], const char fil
     PetscErrorCode ierr;
 
     PetscCall(SamOutputNamePart(filename, k + 1, &name));
-    ierr = SamFileOpen(r->grid, SAM_EVENT_OUTPUT, option, name, SAM_FILE_READ, &r->part[k]->file);
+    ierr = SamFileOpen(r->grid, SAM_EVENT_OUTPUT, option, name, SAM_FILE_READ, NULL, &r->part[k]->file);
     PetscCall(PetscFree(name));
     PetscCall(ierr);
     PetscCall(ReadTimes(r, r->part[k]));

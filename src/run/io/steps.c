@@ -21,28 +21,25 @@
 /*
   Sets the end of data in the superblock to the end of the file, before HDF5 flushes its metadata. HDF5 itself updates
   the superblock last: a run killed before that would leave metadata that point beyond the recorded end, and earlier
-  steps would be lost, too. The space of a step is reserved earlier, so all of its data lie within the file. Version 0
-  of the superblock has no checksum, and the end of data at byte 40 (HDF5 file format specification, II.A); other
-  versions are left to HDF5. `end_of_data` < 0: the end of the file. Returns an errno or 0.
+  steps would be lost, too. The space of a step is reserved earlier, so all of its data lie within the file.
+  `end_of_data` < 0: the end of the file. Returns an errno or 0.
 */
-#define SUPERBLOCK_VERSION 8  /* byte with the version of the superblock */
-#define SUPERBLOCK_OFFSETS 13 /* byte with the size of an address, in bytes */
-#define SUPERBLOCK_END     40 /* first byte of the end of data */
 static int MoveEnd(const char filename[], off_t end_of_data)
 {
   const int     file = open(filename, O_RDWR);
-  unsigned char start[SUPERBLOCK_END], end[8];
+  unsigned char start[SAM_FILE_SUPERBLOCK], end[8];
   struct stat   status;
   int           error = 0;
+  off_t         place;
 
   if (file < 0) return errno;
   errno = EIO; /* a short read or write sets no error */
   if (pread(file, start, sizeof(start), 0) != (ssize_t)sizeof(start) || fstat(file, &status))
     error = errno;
-  else if (start[SUPERBLOCK_VERSION] == 0 && start[SUPERBLOCK_OFFSETS] == sizeof(end)) {
+  else if ((place = SamFilePlaceOfEnd(start)) > 0) {
     for (unsigned k = 0; k < sizeof(end); k++)
       end[k] = (unsigned char)((uint64_t)(end_of_data < 0 ? status.st_size : end_of_data) >> 8 * k & 0xff);
-    if (pwrite(file, end, sizeof(end), SUPERBLOCK_END) != (ssize_t)sizeof(end)) error = errno;
+    if (pwrite(file, end, sizeof(end), place) != (ssize_t)sizeof(end)) error = errno;
   }
   return close(file) && !error ? errno : error;
 }

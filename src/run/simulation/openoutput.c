@@ -4,6 +4,45 @@
 #include <petsam/private/parts.h>
 #include <string.h>
 
+/* ---- expected steps ---- */
+
+PetscBool SamSimulationSaves(SamSimulation s, PetscInt step, PetscInt last)
+{
+  const PetscInt first      = s->output_rows && !s->life; /* the start is the first row */
+  PetscInt       increments = 1, start = 0;
+
+  if (s->output_rows) increments = SamHistoryGetIncrements(s->history);
+  if (s->output_rows && !s->life) start = SamHistoryGetStart(s->history);
+  return (PetscBool)(step == last || ((step - start) % increments == 0 &&
+                                      ((step - start) / increments + first) % s->output_every == 0));
+}
+
+/* Counts the steps first + 1 ... last whose fields are saved. */
+static PetscInt CountSaved(SamSimulation s, PetscInt first, PetscInt last)
+{
+  PetscInt count = 0;
+
+  for (PetscInt k = first + 1; k <= last; k++) count += SamSimulationSaves(s, k, last);
+  return count;
+}
+
+void SamSimulationExpectSteps(SamSimulation s)
+{
+  const PetscInt           last = s->needs.steps, done = s->point.steps;
+  SamOutputSettings *const set = &s->output_settings;
+
+  if (s->life) {
+    const PetscInt start  = SamLifeOptionsGetStart(&s->plan, s->history);
+    const double   cycles = (double)SamLifeOptionsCountOutputs(&s->plan);
+
+    set->steps = cycles * (double)(last - start);
+    set->saved = cycles * (double)CountSaved(s, 0, last - start);
+  } else {
+    set->steps = (double)(last - done);
+    set->saved = (double)CountSaved(s, done, last);
+  }
+}
+
 /* ---- opening ---- */
 
 static PetscErrorCode Create(SamSimulation s)
@@ -79,44 +118,6 @@ PetscErrorCode SamSimulationOpenResults(SamSimulation s)
 
 /* ---- size ---- */
 
-PetscBool SamSimulationSaves(SamSimulation s, PetscInt step, PetscInt last)
-{
-  const PetscInt first      = s->output_rows && !s->life; /* the start is the first row */
-  PetscInt       increments = 1, start = 0;
-
-  if (s->output_rows) increments = SamHistoryGetIncrements(s->history);
-  if (s->output_rows && !s->life) start = SamHistoryGetStart(s->history);
-  return (PetscBool)(step == last || ((step - start) % increments == 0 &&
-                                      ((step - start) / increments + first) % s->output_every == 0));
-}
-
-/* Counts the steps first + 1 ... last whose fields are saved. */
-static PetscInt CountSaved(SamSimulation s, PetscInt first, PetscInt last)
-{
-  PetscInt count = 0;
-
-  for (PetscInt k = first + 1; k <= last; k++) count += SamSimulationSaves(s, k, last);
-  return count;
-}
-
-/* Estimates the size of the file. In a life, cycles that are still to be computed are not counted. */
-static PetscErrorCode Estimate(SamSimulation s, double *bytes)
-{
-  const PetscInt last = s->needs.steps, done = s->point.steps;
-  PetscInt       start, cycles;
-
-  PetscFunctionBegin;
-  if (s->life) {
-    start  = SamLifeOptionsGetStart(&s->plan, s->history);
-    cycles = SamLifeOptionsCountOutputs(&s->plan);
-    PetscCall(SamOutputForecast(s->output, (double)cycles * (double)(last - start),
-                                (double)cycles * (double)CountSaved(s, 0, last - start), bytes));
-  } else {
-    PetscCall(SamOutputForecast(s->output, (double)(last - done), (double)CountSaved(s, done, last), bytes));
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* A larger file (bytes) may be larger than intended. */
 #define LARGE 1e8
 
@@ -127,7 +128,7 @@ PetscErrorCode SamSimulationForecast(SamSimulation s, char text[], size_t size)
   char   advice[PETSC_MAX_PATH_LEN + 200];
 
   PetscFunctionBegin;
-  PetscCall(Estimate(s, &bytes));
+  PetscCall(SamOutputForecast(s->output, &bytes));
   PetscCall(SamFileGetSpace(s->setup.grid, "output", s->filename, &space));
   SamDescribeBytes(bytes, words[0], sizeof(words[0]));
   SamDescribeBytes(space, words[1], sizeof(words[1]));

@@ -8,11 +8,14 @@
 /*
   SamSimulationOpenResults - opens the results. After a restart they are the next part of the existing results; a new
   name begins a file with the steps from there on. Collective. Errors: SAM_ERR_FILE, SAM_ERR_USER.
+  SamSimulationExpectSteps - counts the steps that the file is expected to have; cycles of a life that are still to be
+  computed are not counted. To be called before. Not collective.
   SamSimulationSaves - returns true if the fields of a step, from 1 to last, are saved. Not collective.
   SamSimulationForecast - writes the expected size of the results as text; warns if the disk has less space.
   Collective.
 */
 PETSC_INTERN PetscErrorCode SamSimulationOpenResults(SamSimulation simulation);
+PETSC_INTERN void           SamSimulationExpectSteps(SamSimulation simulation);
 PETSC_INTERN PetscBool      SamSimulationSaves(SamSimulation simulation, PetscInt step, PetscInt last);
 PETSC_INTERN PetscErrorCode SamSimulationForecast(SamSimulation simulation, char text[], size_t size);
 /*

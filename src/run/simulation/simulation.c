@@ -151,6 +151,7 @@ static PetscErrorCode Begin(SamSimulation s, PetscBool writes)
   PetscCall(SamSimulationBeginGradients(s));
   PetscCall(AdviseLoads(s));
   if (writes) PetscCall(SamSimulationBeginCheckpoints(s));
+  if (s->has_output) SamSimulationExpectSteps(s);
   if (writes && s->has_output) PetscCall(SamSimulationOpenResults(s));
   if (!writes && s->has_output) PetscCall(SamOutputPlan(s->setup.grid, &s->output_settings, &s->output));
   if (s->output) {
