@@ -197,16 +197,21 @@ static double MeanTime(SamReport r, PetscInt lines, double seconds)
   return sum / (double)known;
 }
 
-static void KeepWorst(SamReport r, const SamStep *step)
+/* Keeps the largest residuals, also those of the parts of a divided step. */
+static PetscErrorCode KeepWorst(SamReport r, SamContact contact)
 {
-  const PetscReal residuals[3] = {step->check.normal, step->check.tangential, step->check.equilibrium};
+  static const char *const names[3] = {"normal_residual", "tangential_residual", "equilibrium_residual"};
 
+  PetscFunctionBegin;
   for (PetscInt k = 0; k < 3; k++) {
-    const PetscReal worst = SamLarger(r->worst[k].residual, residuals[k]);
+    PetscReal residual, worst;
 
+    PetscCall(SamContactGetNumber(contact, names[k], &residual));
+    worst = SamLarger(r->worst[k].residual, residual);
     if (worst > r->worst[k].residual || r->done == 1) r->worst[k].step = r->number + 1;
     r->worst[k].residual = worst;
   }
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 static PetscErrorCode KeepEnergy(SamReport r, SamContact contact, const SamStep *step)
@@ -270,7 +275,7 @@ static PetscErrorCode CountStep(SamReport r, SamContact contact, PetscInt number
   r->number = number;
   r->done++;
   if (step->status != SAM_STATUS_NO_EQUILIBRIUM) {
-    KeepWorst(r, step);
+    PetscCall(KeepWorst(r, contact));
     PetscCall(KeepEdges(r, contact));
     PetscCall(KeepEnergy(r, contact, step));
     SamReportKeepSummaries(r, contact);
