@@ -138,6 +138,20 @@ static PetscErrorCode RefuseDecimalComma(const SamOptions *from, const char name
           SamOptionsPrefix(from), name, text, numbers, point);
 }
 
+/* Writes why a text is no integer that an option may have; leaves another reason if it is no whole number. */
+static void ExplainInteger(const SamOptionRow *row, const char text[], char why[], size_t size)
+{
+  char           *end;
+  const double    number = strtod(text, &end);
+  const long long most   = row->most ? row->most : PETSC_MAX_INT;
+
+  if (end == text || *end || number != floor(number) || !isfinite(number)) return;
+  if (number > (double)most)
+    (void)snprintf(why, size, "; the largest is %lld", most);
+  else if (text[strspn(text, "0123456789")])
+    (void)snprintf(why, size, "; in digits: %.0f", number);
+}
+
 /* Reads numbers, some of which may be missing; `expected` describes them. Returns their count; 0: the option is
    absent. */
 static PetscErrorCode ReadNumbers(const SamOptions *from, const SamOptionRow *row, const char expected[], double v[],
@@ -158,6 +172,7 @@ static PetscErrorCode ReadNumbers(const SamOptions *from, const SamOptionRow *ro
   }
   if (!good || *n == 0 || *rest) {
     SamExplainNumber(text, row->unit, why, sizeof(why));
+    if (row->kind == SAM_OPTION_INT) ExplainInteger(row, text, why, sizeof(why));
     SETERRQ(from->comm, SAM_ERR_USER, "-%s%s %s: expected %s%s", SamOptionsPrefix(from), row->name, Quote(text),
             expected, !why[0] && row->words ? row->words : why);
   }

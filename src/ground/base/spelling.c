@@ -209,11 +209,16 @@ static const char *FindBehind(const char text[])
 
 void SamExplainNumber(const char text[], const char unit[], char why[], size_t size)
 {
-  const char *rest = FindBehind(text);
-  char        units[64];
+  const char  *rest = FindBehind(text);
+  char         units[64], *end;
+  const double number = strtod(text, &end);
 
   SamListUnits(unit, units, sizeof(units));
   why[0] = '\0';
+  if (end != text && !*end && !isfinite(number)) {
+    (void)snprintf(why, size, isnan(number) ? "; nan is no number" : "; the number is infinite, or too large");
+    return;
+  }
   if (rest && (isalpha((unsigned char)*rest) || isalpha((unsigned char)text[strlen(text) - 1])))
     (void)snprintf(why, size,
                    units[0] ? "; the units allowed, behind each number: %s"
