@@ -252,15 +252,11 @@ def die(deadly, folder, options=None, **variables):
 
 
 @pytest.mark.parametrize("rows, saved, room", [(2, 1, 64), (70, 1, 70), (70, 40, 64), (40, 1, 80), (1500, 1, 1024)])
-def test_indices_have_room_for_all_steps(folder, rows, saved, room):
+def test_indices_have_room_for_all_steps(folder, petsam, rows, saved, room):
     """HDF5 need not divide them: one of several ranks that ends while they are divided would harm the steps before."""
-    (folder / "history.csv").write_text(
-        "time,load_tx\n" + "\n".join(f"{k + 1},{10 + k % 3}" for k in range(rows)) + "\n"
-    )
+    kills.write_history(folder, rows)
     chunk = dict(output_chunk="8,12") if room == 80 else {}
-    options = [CASE, dict(chunk, grid_n=12, output_every=saved, errors="none", output_flush=1)]
-    subprocess.run([str(conftest.PROGRAM), *flatten(options)], cwd=folder, check=True, capture_output=True,
-                   env=conftest.environment())  # fmt: skip
+    petsam(dict(CASE, load_n=None, grid_n=12, output_every=saved, errors="none", output_flush=1), chunk)
     head = (folder / "out" / "out.h5").read_bytes()[:26]  # the superblock, of version 0 or 1
     assert 2 * (int.from_bytes(head[24:], "little") if head[8] else 32) == room
     with h5py.File(folder / "out" / "out.h5") as f:
@@ -333,7 +329,7 @@ def test_no_write_of_a_step_without_fields_harms_the_steps_before(deadly, folder
     die(deadly, folder, options, DIE_LOG="log")
     writes = len((folder / "log").read_text().split())
     tried = 0
-    for n in range(writes // 3, writes, max(1, writes // 30)):
+    for n in range(writes // 3, writes, max(1, writes // 60)):  # where steps are slow, few follow a step that was told
         steps, code = die(deadly, folder, options, DIE_AT=str(n))
         if code == 0 or not steps:
             continue
@@ -341,7 +337,7 @@ def test_no_write_of_a_step_without_fields_harms_the_steps_before(deadly, folder
         with h5py.File(folder / "out" / "out.h5") as f:
             assert f["history/time"][:steps].tolist() == [k + 1.0 for k in range(steps)]
             assert all(len(column[:]) >= steps for column in f["history"].values())
-    assert tried > 5  # fewer where the steps are slow, as fewer are then written together
+    assert tried > 10
 
 
 @pytest.mark.parametrize(

@@ -269,15 +269,15 @@ PETSC_INTERN PetscErrorCode SamFileNameBeside(const char filename[], const char 
   Collective. Errors: SAM_ERR_FILE if the file cannot be written.
 */
 PETSC_INTERN PetscErrorCode SamFileReserve(SamFile file, off_t bytes);
+PETSC_INTERN off_t          SamFileFindUnused(SamFile file);
+PETSC_INTERN PetscErrorCode SamFileGetSpace(SamGrid grid, const char option[], const char filename[], double *bytes);
 /*
   SamFilePlaceOfEnd - returns the place of the end of data, 8 bytes, little endian, in the superblock whose first bytes
   these are. Versions 0 and 1 have it at byte 40 or 44, and no checksum (HDF5 file format specification, II.A); 0: other
   versions, which are left to HDF5. Not collective.
 */
 #define SAM_FILE_SUPERBLOCK 52 /* bytes up to the end of data */
-PETSC_INTERN off_t          SamFilePlaceOfEnd(const unsigned char start[SAM_FILE_SUPERBLOCK]);
-PETSC_INTERN off_t          SamFileFindUnused(SamFile file);
-PETSC_INTERN PetscErrorCode SamFileGetSpace(SamGrid grid, const char option[], const char filename[], double *bytes);
+PETSC_INTERN off_t SamFilePlaceOfEnd(const unsigned char start[SAM_FILE_SUPERBLOCK]);
 /*
   SamFileReplace - flushes the complete file `temporary` to the disk and renames it to `filename`. A file of that name
   is replaced, or first named `kept` if that is not NULL. If there was a complete file of one of these names before,

@@ -113,13 +113,15 @@ static PetscBool Contains(const char bytes[], size_t size, const char text[])
   return PETSC_FALSE;
 }
 
+static const char hdf5[8] = {'\211', 'H', 'D', 'F', '\r', '\n', '\032', '\n'}; /* first bytes of its files */
+
 /*
   True if a file begins with the bytes that petsam writes under this name. HDF5 is not used here, as it might never
   return from a damaged file. A killed run may have left a file that begins with zeros.
 */
 static PetscBool IsOwn(SamFileUse use, const char head[], size_t size)
 {
-  static const char hdf5[8] = {'\211', 'H', 'D', 'F', '\r', '\n', '\032', '\n'}, zeros[8] = {0};
+  static const char zeros[8] = {0};
 
   if (!size) return PETSC_TRUE;
   if (size >= sizeof(zeros) && !memcmp(head, zeros, sizeof(zeros))) return PETSC_TRUE;
@@ -148,11 +150,10 @@ off_t SamFilePlaceOfEnd(const unsigned char start[SAM_FILE_SUPERBLOCK])
 */
 static PetscBool IsUnfinished(int file, const char head[], size_t size)
 {
-  static const char begin[8] = {'\211', 'H', 'D', 'F', '\r', '\n', '\032', '\n'};
-  const off_t       place    = size < SAM_FILE_SUPERBLOCK ? 0 : SamFilePlaceOfEnd((const unsigned char *)head);
-  uint64_t          end      = 0;
+  const off_t place = size < SAM_FILE_SUPERBLOCK ? 0 : SamFilePlaceOfEnd((const unsigned char *)head);
+  uint64_t    end   = 0;
 
-  if (!place || memcmp(head, begin, sizeof(begin))) return PETSC_FALSE;
+  if (!place || memcmp(head, hdf5, sizeof(hdf5))) return PETSC_FALSE;
   for (int k = 7; k >= 0; k--) end = end << 8 | (unsigned char)head[place + k];
   return (uint64_t)SizeOf(file) < end;
 }
@@ -207,7 +208,8 @@ static int Reserve(int file, off_t bytes, PetscBool keep)
   return keep && ftruncate(file, status.st_size + bytes) ? errno : 0;
 }
 
-static int ReserveInFile(SamFile f, off_t bytes)
+/* Reserves so many bytes and those of HDF5's metadata in a file that exists. */
+static int ReserveInFile(SamFile f, off_t bytes, PetscBool keep)
 {
   const int file  = open(f->filename, O_WRONLY);
   off_t     begin = 0;
@@ -215,8 +217,9 @@ static int ReserveInFile(SamFile f, off_t bytes)
 
   if (file < 0) return errno;
   begin = SizeOf(file);
-  error = Reserve(file, bytes, PETSC_TRUE);
-  if (!error) {
+  bytes += SAM_FILE_METADATA;
+  error = Reserve(file, bytes, keep);
+  if (!error && keep) {
     f->reserved_begin = begin;
     f->reserved_end   = begin + bytes;
   }
@@ -225,12 +228,10 @@ static int ReserveInFile(SamFile f, off_t bytes)
 
 PetscErrorCode SamFileCheckRoom(SamFile f, double bytes)
 {
-  const int file  = f->rank == 0 ? open(f->filename, O_WRONLY) : -1;
-  int       error = 0;
+  int error = 0;
 
   PetscFunctionBegin;
-  if (f->rank == 0) error = file < 0 ? errno : Reserve(file, SAM_FILE_METADATA + (off_t)bytes, PETSC_FALSE);
-  if (file >= 0) (void)close(file);
+  if (f->rank == 0) error = ReserveInFile(f, (off_t)bytes, PETSC_FALSE);
   PetscCall(SamFileRaise(f->grid, f->option, f->filename, error));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -248,7 +249,7 @@ PetscErrorCode SamFileReserve(SamFile f, off_t bytes)
   int error = 0;
 
   PetscFunctionBegin;
-  if (f->rank == 0) error = ReserveInFile(f, SAM_FILE_METADATA + bytes);
+  if (f->rank == 0) error = ReserveInFile(f, bytes, PETSC_TRUE);
   PetscCall(SamFileRaise(f->grid, f->option, f->filename, error));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -71,10 +71,11 @@ hid_t SamFileNote(SamFile f, hid_t result)
   Half of the entries of a node of the indices of chunks, so that one node has room for all chunks, if it can. A node is
   written as a whole whenever a chunk is added, and each dataset has a node of that size, however few its chunks are.
 */
-#define HALF_NODE 32  /* HDF5's own */
-#define MOST_HALF 512 /* a node of 49 kB: all nodes of a file must be far fewer bytes than MOST_CHANGED */
-static const double entry[2] = {48, 32}; /* bytes of an entry with three dimensions, and with one */
-static unsigned     HalfNode(const SamFileGrowth *growth)
+#define HALF_NODE    32   /* HDF5's own */
+#define MOST_HALF    512  /* a node of 49 kB: all nodes of a file must be far fewer bytes than MOST_CHANGED */
+#define FIELD_ENTRY  48.0 /* bytes of an entry with three dimensions, */
+#define SERIES_ENTRY 32.0 /* and with one */
+static unsigned HalfNode(const SamFileGrowth *growth)
 {
   return (unsigned)PetscClipInterval(growth ? ceil(0.5 * growth->chunks) : 0, HALF_NODE, MOST_HALF);
 }
@@ -82,7 +83,7 @@ static unsigned     HalfNode(const SamFileGrowth *growth)
 double SamFileIndexBytes(const SamFileGrowth *growth)
 {
   return growth ? 2.0 * (double)(HalfNode(growth) - HALF_NODE) *
-                    (entry[0] * (double)growth->fields + entry[1] * (double)growth->series)
+                    (FIELD_ENTRY * (double)growth->fields + SERIES_ENTRY * (double)growth->series)
                 : 0;
 }
 

@@ -18,7 +18,10 @@ PETSC_INTERN void SamFileRemoveLeftOvers(SamFile file);
 */
 PETSC_INTERN PetscErrorCode SamFileRaise(SamGrid grid, const char option[], const char filename[], int error);
 
-/* SamFileCheckRoom - checks that a created file has room for so many bytes. Collective. Errors: SAM_ERR_FILE. */
+/*
+  SamFileCheckRoom - checks that a created file has room for so many bytes beside HDF5's metadata. Collective. Errors:
+  SAM_ERR_FILE.
+*/
 PETSC_INTERN PetscErrorCode SamFileCheckRoom(SamFile file, double bytes);
 
 #define SAM_CHECKPOINT_FORMAT 8 /* version of a checkpoint's contents */

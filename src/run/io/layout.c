@@ -99,12 +99,22 @@ hsize_t SamOutputPlanes(SamOutput o, PetscInt f)
   return layers ? (hsize_t)(layers->count[0] + layers->count[1]) : 1;
 }
 
+/* Returns the chunks of one plane of a field of cells in one step. */
+static hsize_t PlaneChunks(SamOutput o)
+{
+  const SamShape shape  = FieldShape(o->grid, &o->set);
+  hsize_t        chunks = 1;
+
+  for (int d = 1; d < 3; d++) chunks *= (shape.size[d] + shape.chunk[d] - 1) / shape.chunk[d];
+  return chunks;
+}
+
 off_t SamOutputFieldBytes(SamOutput o)
 {
   const SamShape shape = FieldShape(o->grid, &o->set);
-  hsize_t cells = 1, bytes = 0, points = 0; /* cells in whole chunks; bytes per cell of all fields; bytes of edges */
+  const hsize_t  cells = PlaneChunks(o) * shape.chunk[1] * shape.chunk[2]; /* in whole chunks */
+  hsize_t        bytes = 0, points = 0; /* bytes per cell of all fields; bytes of edges */
 
-  for (int d = 1; d < 3; d++) cells *= (shape.size[d] + shape.chunk[d] - 1) / shape.chunk[d] * shape.chunk[d];
   for (PetscInt f = 0; f < SamOutputCount(o); f++) {
     if (!o->wants[f]) continue;
     if (SamOutputResult(o, f)->kind == SAM_FIELD_POINTS)
@@ -124,28 +134,18 @@ static double SeriesBytes(double rows, hsize_t chunk, hsize_t numbers)
 #define STRUCTURE 136e3 /* bytes of an empty file */
 #define INDEX     64    /* bytes per chunk in HDF5's indices */
 
-/* Returns the chunks of one plane of a field of cells in one step. */
-static double PlaneChunks(SamOutput o)
-{
-  const SamShape shape  = FieldShape(o->grid, &o->set);
-  double         chunks = 1;
-
-  for (int d = 1; d < 3; d++) chunks *= (double)((shape.size[d] + shape.chunk[d] - 1) / shape.chunk[d]);
-  return chunks;
-}
-
 SamFileGrowth SamOutputGrowth(SamOutput o)
 {
   const double  points = EDGE * (double)(o->grid->nx + o->grid->ny) / SAM_OUTPUT_POINTS;
   SamFileGrowth growth = {0, 1, o->set.steps / CHUNK_MATRICES}; /* beside the fields and numbers: time */
 
   for (PetscInt f = 0; f < SamOutputCount(o); f++) {
-    const PetscBool are = SamOutputResult(o, f)->kind == SAM_FIELD_POINTS ? PETSC_TRUE : PETSC_FALSE;
+    const PetscBool edge   = SamOutputResult(o, f)->kind == SAM_FIELD_POINTS ? PETSC_TRUE : PETSC_FALSE;
+    const double    chunks = edge ? ceil(points) : (double)(PlaneChunks(o) * SamOutputPlanes(o, f)); /* of a step */
 
     if (!o->wants[f]) continue;
     growth.fields++;
-    growth.chunks =
-      PetscMax(growth.chunks, o->set.saved * (are ? ceil(points) : PlaneChunks(o) * (double)SamOutputPlanes(o, f)));
+    growth.chunks = PetscMax(growth.chunks, o->set.saved * chunks);
   }
   for (PetscInt k = 0; k < SAM_SERIES; k++)
     for (PetscInt c = 0; o->state[k] && c < SamStateCountNumbers(o->state[k]); c++)
@@ -157,7 +157,7 @@ PetscErrorCode SamOutputForecast(SamOutput o, double *bytes)
 {
   const SamState      state  = o->state[SAM_SERIES_HISTORY];
   const SamFileGrowth growth = SamOutputGrowth(o);
-  const double        index = INDEX * PlaneChunks(o), steps = o->set.steps, saved = o->set.saved;
+  const double        index = INDEX * (double)PlaneChunks(o), steps = o->set.steps, saved = o->set.saved;
 
   PetscFunctionBegin;
   *bytes = STRUCTURE + SamFileIndexBytes(&growth) + SeriesBytes(saved, CHUNK_STEPS, 1) +

@@ -242,10 +242,10 @@ static PetscErrorCode MakeIdentity(SamOutput o)
 /* Creates the file under a temporary name. */
 static PetscErrorCode CreateFile(SamOutput o, const char filename[])
 {
-  SamFileGrowth  growth;
-  char          *temporary;
-  double         bytes;
-  PetscErrorCode ierr;
+  const SamFileGrowth growth = SamOutputGrowth(o);
+  char               *temporary;
+  double              bytes;
+  PetscErrorCode      ierr;
 
   PetscFunctionBegin;
   PetscCall(PetscStrallocpy(filename, &o->name));
@@ -254,8 +254,7 @@ static PetscErrorCode CreateFile(SamOutput o, const char filename[])
   PetscCall(SamFileGetBytes(o->grid->comm, filename, &bytes));
   o->replaced = bytes > 0 ? PETSC_TRUE : PETSC_FALSE;
   PetscCall(SamFileNameTemporary(filename, &temporary));
-  ierr   = SamFileLockTake(o->grid, "output", temporary, SAM_FILE_TEMPORARY, &o->hold);
-  growth = SamOutputGrowth(o);
+  ierr = SamFileLockTake(o->grid, "output", temporary, SAM_FILE_TEMPORARY, &o->hold);
   if (!ierr) ierr = SamFileOpen(o->grid, SAM_EVENT_OUTPUT, "output", temporary, SAM_FILE_CREATE, &growth, &o->f);
   if (ierr) SamFileLockRelease(temporary, &o->hold);
   PetscCall(PetscFree(temporary));
