@@ -95,7 +95,8 @@ static void test_more_doubts_than_there_is_room_for_are_dropped(void **state)
   sam_assert_close(SamDoubtsOf(&d, "number3", SAM_CAUSE_CELLS, &known), 0.7, 0);
 }
 
-/* The largest comes first, each reason once, and what mends all of them counts; what nothing mends has no factor. */
+/* The largest comes first, each reason once, and what mends all of them counts; what nothing mends has no factor,
+   nor has a line with what more makes worse. */
 static void test_doubts_of_a_cause_are_told_in_one_line(void **state)
 {
   SamDoubts d = {.count = 0};
@@ -121,6 +122,13 @@ static void test_doubts_of_a_cause_are_told_in_one_line(void **state)
   SamDoubtsAdd(&d, SAM_CAUSE_LAYERS, 0.2, 2, "slip_max", "few");
   SamDoubtsWrite(&d, SAM_CAUSE_LAYERS, &factor, text, sizeof(text));
   sam_assert(!strcmp(text, "energy 40 %, volume 30 %, slip_max 20 % (thick; few)"));
+  SamDoubtsAdd(&d, SAM_CAUSE_MESH, 0.4, 2, "energy volume", "few elements");
+  SamDoubtsWrite(&d, SAM_CAUSE_MESH, &factor, text, sizeof(text));
+  sam_assert(factor == 2);
+  SamDoubtsAdd(&d, SAM_CAUSE_MESH, 0.3, SAM_DOUBT_WORSE, "volume", "worse with each");
+  SamDoubtsAdd(&d, SAM_CAUSE_MESH, 0.5, 3, "volume", "few elements");
+  SamDoubtsWrite(&d, SAM_CAUSE_MESH, &factor, text, sizeof(text));
+  sam_assert(factor == 0);
 }
 
 static void test_a_line_names_some_numbers_and_counts_the_others(void **state)

@@ -14,12 +14,17 @@ PETSC_EXTERN const char *const SamCauseNames[SAM_CAUSES];
 #define SAM_ENERGY_NONE 1e-6 /* energy, relative to N times the approach, that is next to nothing: it has no error */
 #define SAM_DOUBT_NAME  128  /* characters of a name */
 #define SAM_DOUBT_WHY   160  /* characters of a reason */
+#define SAM_DOUBT_WORSE (-1) /* a factor */
+/* where the contact grows from a point, the limit of M_z falls faster with N than M_z does */
+#define SAM_DOUBT_TWIST \
+  "M_z and N begin together, and its effects grow with each finer step: give a first row of N alone"
 typedef struct {
   char      name[SAM_DOUBT_NAME];
   SamCause  cause;
   double    error;              /* relative to the number; 1: nothing is known of it */
   PetscBool known;              /* that of a value in closed form: no other estimate counts */
-  double    factor;             /* how many times narrower cells, more steps or more layers make it small; 0: none do */
+  double    factor;             /* how many times narrower cells, more steps or more layers make it small; 0: none do;
+                                   SAM_DOUBT_WORSE: they make it worse, and none are proposed whatever else they mend */
   char      why[SAM_DOUBT_WHY]; /* what is not resolved; may be empty */
 } SamDoubt;
 

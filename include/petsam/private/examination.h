@@ -65,6 +65,8 @@ typedef struct {
   PetscBool pushed;       /* true: the last step prescribes no tangential displacement; in rolling: not all creepages */
   PetscBool together;     /* true: N and T have grown in proportion from zero */
   double    part[2];      /* T over N in that case */
+  PetscBool twists;       /* true: M_z began with N */
+  double    areas[2];     /* of the contact after the first step, and after the last one, m2 */
   double    tilt;         /* largest displacement of the contact's edge by tilting, relative to the approach */
   PetscBool joined;       /* true: the normal load has begun to grow */
   double    coupling;     /* coupling over friction if N of dissimilar bodies grows in one step; else 0 */

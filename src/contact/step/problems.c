@@ -158,11 +158,12 @@ PetscErrorCode SamSolveBegun(SamSolve *w)
 */
 static PetscErrorCode DescribeSliding(SamSolve *w, char message[], size_t size)
 {
-  const PetscBool follows = SamProblemFollowsSlip(w->contact->problem);
-  PetscInt        loaded  = 0;
-  PetscBool       friction;
-  char            instead[64] = "; for gross slip give ";
-  const char     *cure;
+  const PetscBool          follows = SamProblemFollowsSlip(w->contact->problem);
+  const SamSolution *const last    = w->contact->tried.last;
+  PetscInt                 loaded  = 0;
+  PetscBool                friction;
+  char                     instead[64] = "; for gross slip give ";
+  const char              *cure;
 
   PetscFunctionBegin;
   PetscCall(PetscStrncpy(message, "gross slip: ", size));
@@ -188,6 +189,8 @@ static PetscErrorCode DescribeSliding(SamSolve *w, char message[], size_t size)
     PetscCall(PetscStrlcat(message, " cannot be balanced: the normal force is 0, so friction bears nothing", size));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
+  if (w->s->control.together && w->tangential.load[2] != 0 && (!last || last->load[SAM_COMPONENT_N] == 0))
+    PetscCall(PetscStrncpy(instead, " while N is small: give a first row of N alone", sizeof(instead)));
   cure = follows && w->contact->motion->continues ? ": use smaller load steps" : instead;
   PetscCall(PetscStrlcat(message, " cannot be balanced ", size));
   PetscCall(PetscStrlcat(message, friction ? "by |q| <= mu p" : "without friction: give -friction", size));

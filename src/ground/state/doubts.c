@@ -39,8 +39,11 @@ static void Keep(SamDoubt *kept, const SamDoubt *more)
     kept->error = more->error;
     if (more->why[0]) (void)snprintf(kept->why, sizeof(kept->why), "%s", more->why);
   }
-  kept->known  = kept->known || more->known ? PETSC_TRUE : PETSC_FALSE;
-  kept->factor = none ? 0 : PetscMax(kept->factor, more->factor);
+  kept->known = kept->known || more->known ? PETSC_TRUE : PETSC_FALSE;
+  if (PetscMin(kept->factor, more->factor) < 0)
+    kept->factor = SAM_DOUBT_WORSE;
+  else
+    kept->factor = none ? 0 : PetscMax(kept->factor, more->factor);
 }
 
 /* Adds an error of several numbers. */
@@ -159,6 +162,7 @@ void SamDoubtsWrite(const SamDoubts *d, SamCause cause, double *factor, char tex
   PetscInt       list[SAM_DOUBTS];
   const PetscInt count = List(d, cause, list);
   char           one[64], error[SAM_ERROR_TEXT];
+  PetscBool      worse = PETSC_FALSE;
 
   *factor = 0;
   text[0] = '\0';
@@ -166,10 +170,12 @@ void SamDoubtsWrite(const SamDoubts *d, SamCause cause, double *factor, char tex
     const SamDoubt *doubt = &d->of[list[k]];
 
     *factor = PetscMax(*factor, doubt->factor);
+    worse   = worse || doubt->factor < 0 ? PETSC_TRUE : PETSC_FALSE;
     if (k >= SEVERAL) continue;
     (void)snprintf(one, sizeof(one), "%s %s", doubt->name, SamErrorWrite(doubt->error, error, sizeof(error)));
     Append(text, size, k, "", ", ", one);
   }
+  if (worse) *factor = 0;
   if (count > SEVERAL) {
     (void)snprintf(one, sizeof(one), "%d more", (int)(count - SEVERAL));
     Append(text, size, count, "", " and ", one);

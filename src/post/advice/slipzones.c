@@ -52,6 +52,7 @@
 
 #define GOOD     0.02  /* the same on an advised grid */
 #define ROUGH    0.25  /* the same above which the energy is unknown */
+#define POINT    0.9   /* part of the last contact; one that was smaller after the first step has grown from a point */
 #define ALIKE    1e-6  /* smaller couplings of bodies, or relative changes of a load, count as none */
 #define REVERSED 1.02  /* increase of the part of cells that stick, relative to the step before, at a reversal */
 #define ROUNDING 1e-16 /* energy, relative to the normal work, that is rounding of the shear */
@@ -338,13 +339,16 @@ static void Merging(SamAdvice *a)
    runs, too: where N falls all of them lack the energy that cells take along. */
 static void LongSteps(SamAdvice *a)
 {
-  const SamSlip *slip = &a->slip;
-  const double   lost = slip->energy > 0 ? slip->unbalanced / slip->energy : slip->unbalanced > 0 ? 1 : 0;
+  const SamSlip  *slip   = &a->slip;
+  const PetscBool twists = slip->twists && slip->areas[0] < POINT * slip->areas[1] ? PETSC_TRUE : PETSC_FALSE;
+  const double    lost   = slip->energy > 0 ? slip->unbalanced / slip->energy : slip->unbalanced > 0 ? 1 : 0;
 
   if (a->increments && PetscMax(slip->energy, slip->unbalanced) > LITTLE * slip->work)
     SamDoubtsAdd(&a->doubts, SAM_CAUSE_STEPS, lost, sqrt(PetscMin(lost, 1) / GOOD), "dissipated_energy",
                  "the loads do work that is neither stored nor dissipated");
 
+  if (a->increments && a->steps > 1 && twists)
+    SamDoubtsAdd(&a->guesses, SAM_CAUSE_STEPS, 1, SAM_DOUBT_WORSE, "rot_z", SAM_DOUBT_TWIST);
   if (a->increments && a->steps > 1 && PetscMax(slip->energy, slip->lag) > LITTLE * slip->work)
     SamDoubtsAdd(&a->guesses, SAM_CAUSE_STEPS, slip->energy > 0 ? slip->lag / slip->energy : 1,
                  sqrt(PetscMin(slip->lag / slip->energy, 1) / GOOD), "dissipated_energy", "the load steps are long");
@@ -365,6 +369,13 @@ static PetscBool GrowTogether(SamSlip *slip, const SamStep *step)
     slip->together = fabs(now - slip->part[k] * load) <= ALIKE * load ? PETSC_TRUE : PETSC_FALSE;
   }
   return slip->together;
+}
+
+/* True if M_z and N grow in proportion from zero, in the first row of a history. */
+static PetscBool TwistsWith(const SamStep *step)
+{
+  return step->control.together && step->control.sudden && step->load[SAM_COMPONENT_N] > 0 &&
+         step->control.force[SAM_COMPONENT_MZ] && step->control.value[SAM_COMPONENT_MZ] != 0;
 }
 
 /* Returns the displacement of the contact's edge by tilting, relative to the approach. */
@@ -435,6 +446,11 @@ PetscErrorCode SamAdviceAddSlip(SamAdvice *a, const SamStep *step)
   if (slip->rolls) PetscFunctionReturn(PETSC_SUCCESS);
   if (!slip->steps++) slip->closed = 0;
   PetscCall(GetNumbers(s, &n));
+  slip->areas[1] = (double)n.contact;
+  if (slip->steps == 1) {
+    slip->areas[0] = slip->areas[1];
+    slip->twists   = TwistsWith(step);
+  }
   slip->closed += (double)n.closed;
   sticks = n.contact_cells > 0 ? (double)(n.stick_cells / n.contact_cells) : 1;
   if (sticks > REVERSED * slip->sticks || (sticks == 1 && slip->sticks < 1)) {

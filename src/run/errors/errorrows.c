@@ -10,10 +10,9 @@
 #include <petsam/private/problemimpl.h>
 #include <math.h>
 
-#define LARGE       0.12 /* error above which a warning is given: the median is two to three times the true one; */
-#define APART       0.1  /* for errors by the cells the difference to half the cells must be above this, too */
-#define AIM         0.04 /* error that the proposed cells or steps have */
-#define GROWS_STEPS "M_z and N begin together, and %s grows with each finer step: give a first row of N alone"
+#define LARGE 0.12 /* error above which a warning is given: the median is two to three times the true one; */
+#define APART 0.1  /* for errors by the cells the difference to half the cells must be above this, too */
+#define AIM   0.04 /* error that the proposed cells or steps have */
 
 /* ---- values ---- */
 
@@ -144,7 +143,7 @@ static double FactorOf(const SamErrorRow *row, SamCause cause)
 {
   const double ratio = row->of[cause] / AIM;
 
-  if (row->grows[cause]) return 0;
+  if (row->grows[cause]) return cause == SAM_CAUSE_STEPS ? SAM_DOUBT_WORSE : 0;
   if (cause == SAM_CAUSE_CELLS && row->more > 0) return row->more;
 
   if (!(ratio > 1)) return 1;
@@ -301,9 +300,10 @@ static void AddDoubt(SamErrors e, SamAdvice *advice, SamCause cause, const SamEr
 {
   char why[SAM_DOUBT_WHY] = "";
 
-  if (row->grows[cause])
-    (void)snprintf(why, sizeof(why), cause == SAM_CAUSE_CELLS ? "%s grows with each finer grid" : GROWS_STEPS,
-                   row->name);
+  if (row->grows[cause] && cause == SAM_CAUSE_STEPS)
+    (void)snprintf(why, sizeof(why), SAM_DOUBT_TWIST);
+  else if (row->grows[cause])
+    (void)snprintf(why, sizeof(why), "%s grows with each finer grid", row->name);
   else if (cause == SAM_CAUSE_CELLS && row->more > 0)
     (void)snprintf(why, sizeof(why), SAM_ACROSS " in the last step", "", (double)e->few, e->few == 1 ? "" : "s");
   SamDoubtsAdd(&advice->doubts, cause, row->of[cause], FactorOf(row, cause), row->name, "%s", why);
