@@ -161,6 +161,38 @@ void SamContactSetSettles(SamContact c, PetscBool settles)
   c->settles = settles;
 }
 
+PetscErrorCode SamContactSetMonitor(SamContact c, SamSolverMonitor monitor, void *context)
+{
+  PetscFunctionBegin;
+  PetscCall(SamSolverMonitorSet(SamNormalAsSolver(c->normal), monitor, context));
+  PetscCall(SamSolverMonitorSet(SamTangentialAsSolver(c->tangential), monitor, context));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscBool SamContactIsNormal(SamContact c, SamSolver solver)
+{
+  return solver == SamNormalAsSolver(c->normal) ? PETSC_TRUE : PETSC_FALSE;
+}
+
+const SamLevelWork *SamContactGetWork(SamContact c, SamBalanceKind kind, PetscInt depth)
+{
+  const PetscBool normal = kind == SAM_BALANCE_NORMAL ? PETSC_TRUE : PETSC_FALSE;
+
+  return SamSolverGetWork(normal ? SamNormalAsSolver(c->normal) : SamTangentialAsSolver(c->tangential), depth);
+}
+
+const char *SamContactNameOf(SamContact c, const char usual[])
+{
+  const SamMotionName *name = SamMotionFindName(c->motion, usual);
+
+  return name ? name->name : usual;
+}
+
+SamMotionName SamContactRigidName(SamContact c, SamComponent component)
+{
+  return SamMotionRigidName(c->motion, component);
+}
+
 SamProblem SamContactGetProblem(SamContact c)
 {
   return c->problem;

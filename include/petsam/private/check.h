@@ -25,6 +25,13 @@ PETSC_INTERN const char *SamCheckDescribeEdge(const SamCheck *check, char text[]
 /*
   SamStepFail - sets status and message unless the step has failed already, since later failures follow from the first.
 */
-PETSC_INTERN PetscErrorCode SamStepFail(SamStep *step, SamStatus status, const char message[]);
+static inline PetscErrorCode SamStepFail(SamStep *step, SamStatus status, const char message[])
+{
+  PetscFunctionBegin;
+  if (step->status != SAM_STATUS_CONVERGED) PetscFunctionReturn(PETSC_SUCCESS);
+  step->status = status;
+  PetscCall(PetscStrncpy(step->message, message, sizeof(step->message)));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
 
 #endif

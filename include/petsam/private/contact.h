@@ -4,6 +4,8 @@
 
 #include <petsam/contact.h>
 #include <petsam/private/edges.h>
+#include <petsam/private/motionimpl.h>
+#include <petsam/private/solver.h>
 
 /*
   SamContactGetMotion - returns the motion of the bodies.
@@ -123,6 +125,24 @@ PETSC_EXTERN SamTangential SamContactGetTangential(SamContact contact);
   direction.c). Not collective.
 */
 PETSC_INTERN void SamContactSetSettles(SamContact contact, PetscBool settles);
+
+/*
+  SamContactSetMonitor - adds a function that is called after every iteration of the normal and the tangential problem,
+  as SamSolverMonitorSet() does; `solver` is that of the problem. Not collective. SamContactIsNormal - returns true if
+  this solver is that of the normal problem. SamContactGetWork - returns the work of the normal, or the tangential,
+  problem on the grid whose cells are `depth` times halved, borrowed. Not collective.
+*/
+PETSC_EXTERN PetscErrorCode      SamContactSetMonitor(SamContact contact, SamSolverMonitor monitor, void *context);
+PETSC_EXTERN PetscBool           SamContactIsNormal(SamContact contact, SamSolver solver);
+PETSC_EXTERN const SamLevelWork *SamContactGetWork(SamContact contact, SamBalanceKind kind, PetscInt depth);
+
+/*
+  SamContactNameOf - returns the name that results have for a number in the motion of the bodies, as `creep_x` of a
+  rolling contact for `disp_x`. SamContactRigidName - returns that of the displacement, rotation or creepage of a
+  component. Not collective.
+*/
+PETSC_EXTERN const char   *SamContactNameOf(SamContact contact, const char usual[]);
+PETSC_EXTERN SamMotionName SamContactRigidName(SamContact contact, SamComponent component);
 
 /* SamContactGetProblem - returns the problem of a contact, borrowed. Not collective. */
 PETSC_INTERN SamProblem SamContactGetProblem(SamContact contact);

@@ -108,6 +108,9 @@ PETSC_INTERN PetscErrorCode SamElasticityPreconditionSlipSingle(SamElasticity el
 */
 PETSC_EXTERN SamPair SamElasticityGetPair(SamElasticity elasticity);
 
+/* SamElasticityGetModulus - returns E* (Pa) of the materials at the surfaces. Not collective. */
+PETSC_INTERN PetscReal SamElasticityGetModulus(SamElasticity elasticity);
+
 /*
   SamElasticityCreateFromParameters - creates the bodies that the parameters of a run describe, on a grid.
 

@@ -26,12 +26,15 @@ PETSC_EXTERN PetscErrorCode SamEvaluationCreateFromOptions(const SamOptions *fro
 PETSC_EXTERN PetscErrorCode SamEvaluationDestroy(SamEvaluation *evaluation);
 
 /*
+  SamEvaluationReadTransforms - reads the settings of its transforms from the options; else they are those of the
+  bodies. Collective.
   SamEvaluationSetUp - sets the source and the parts of the stresses, checks the settings together, and creates the
   kernels; it must be called once. Collective. Errors: SAM_ERR_USER for a body that is rigid or whose stresses are not
   available, a depth above zero but below a millionth of a cell, a section outside of the grid, a cycle of one step,
   passing points (-passing) with more than one step or below a section along y, and Ruiz's parameters below the
   surface or of passing points.
 */
+PETSC_EXTERN PetscErrorCode SamEvaluationReadTransforms(const SamOptions *from, SamEvaluation evaluation);
 PETSC_EXTERN PetscErrorCode SamEvaluationSetUp(SamEvaluation evaluation, const SamStressSource *source);
 
 /* SamStressDataset - a result: numbers of shape (time, z, y, x), or (z, y, x) for all steps together. */

@@ -88,6 +88,10 @@ typedef struct _n_SamLife *SamLife;
 PETSC_INTERN PetscErrorCode SamLifeCreate(SamContact contact, const SamLifeCycle *cycle,
                                           const SamLifeSettings *settings, SamLife *life);
 PETSC_INTERN PetscErrorCode SamLifeDestroy(SamLife *life);
+/* SamLifeDescribeWorn - writes that the first material of a body (0, 1) is worn through; empty: it is not. Not
+   collective. */
+PETSC_INTERN PetscErrorCode SamLifeDescribeWorn(SamLife life, const SamLifeReport *report, int body, char text[],
+                                                size_t size);
 /*
   SamLifeEnd - makes each step of the contact wear again; the results of the life can still be read. Not collective.
 */

@@ -120,10 +120,10 @@ PETSC_INTERN PetscErrorCode SamOutputGetSaved(SamOutput output, PetscInt *steps,
 /*
   SamOutputPlan - creates an object without a file, for SamOutputForecast() only. Collective.
   SamOutputForecast - computes the size (bytes) that this file would have with the expected steps of the settings,
-  without compression. Not collective.
+  without compression, and the space that is free where a file of that name would be. Collective.
 */
 PETSC_INTERN PetscErrorCode SamOutputPlan(SamGrid grid, const SamOutputSettings *settings, SamOutput *output);
-PETSC_INTERN PetscErrorCode SamOutputForecast(SamOutput output, double *bytes);
+PETSC_INTERN PetscErrorCode SamOutputForecast(SamOutput output, const char filename[], double *bytes, double *space);
 /* SamOutputHasReplaced - returns true if the file has replaced older results. Not collective. */
 PETSC_INTERN PetscBool SamOutputHasReplaced(SamOutput output);
 /*

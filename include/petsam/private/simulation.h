@@ -177,7 +177,7 @@ PETSC_INTERN SamGradient    SamSimulationGetGradient(SamSimulation simulation);
 typedef enum { SAM_TOUCHES_NEVER, SAM_TOUCHES_FIRST, SAM_TOUCHES_LATER } SamTouches;
 /* SamSimulationNeeds - the properties of a simulation, besides the grid, that determine its memory. */
 typedef struct {
-  PetscBool  friction, coupled, life, stiffness, companion, gradient;
+  PetscBool  friction, coupled, slides, life, stiffness, companion, gradient;
   PetscInt   gradient_bytes[3]; /* of its numbers, see SamObjective */
   PetscReal  gradient_memory;   /* of its recorded steps on all ranks, bytes; 0: any */
   PetscReal  gradient_jumps;    /* number of jumps of a wear simulation that are recorded for them */

@@ -286,6 +286,11 @@ SamPair SamElasticityGetPair(SamElasticity e)
   return e->pair;
 }
 
+PetscReal SamElasticityGetModulus(SamElasticity e)
+{
+  return SamPairModulus(e->pair);
+}
+
 SamElasticityTraits SamElasticityGetTraits(SamElasticity e)
 {
   SamElasticityTraits traits = e->traits;

@@ -2,15 +2,6 @@
 #include <petsam/private/baseimpl.h>
 #include <petsam/private/check.h>
 
-PetscErrorCode SamStepFail(SamStep *step, SamStatus status, const char message[])
-{
-  PetscFunctionBegin;
-  if (step->status != SAM_STATUS_CONVERGED) PetscFunctionReturn(PETSC_SUCCESS);
-  step->status = status;
-  PetscCall(PetscStrncpy(step->message, message, sizeof(step->message)));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* True if all residuals are within their limits. The comparisons use <= so that a NaN fails, too. */
 static PetscBool Agrees(const SamCheck *check, const SamCheckLimits *limits)
 {

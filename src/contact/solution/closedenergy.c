@@ -102,7 +102,7 @@ static double ClosedOf(SamProblem p, double bound, double t, double moved, Petsc
 
   if (SamGridIsRow(SamProblemGetGrid(p)))
     return (reversed ? 2 : 1) * bound * bound /
-           (PETSC_PI * (double)SamPairModulus(SamElasticityGetPair(SamProblemGetElasticity(p)))) *
+           (PETSC_PI * (double)SamElasticityGetModulus(SamProblemGetElasticity(p))) *
            (t < SMALL ? t * t * t / 6 * (1 + t / 2) : x * log(x) + 0.5 * (1 - x * x));
   if (t < SMALL) return bound * moved * t * t / 18 * (1 + t / 2);
   return 1.2 * bound * moved / (1 - pow(x, 2. / 3)) * (1 - pow(x, 5. / 3) - 5 * t / 6 * (1 + pow(x, 2. / 3)));

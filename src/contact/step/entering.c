@@ -51,7 +51,7 @@ static PetscErrorCode AddMotion(SamProblem problem, SamState state, const SamSol
   a->uniform   = (double)(now->rigid[SAM_COMPONENT_N] - before->rigid[SAM_COMPONENT_N]) + a->tilt[0] * a->center[0] +
                a->tilt[1] * a->center[1];
   if (SamElasticityGetTraits(elasticity).plane)
-    a->uniform = 4 * normal / (PETSC_PI * (double)SamPairModulus(SamElasticityGetPair(elasticity)));
+    a->uniform = 4 * normal / (PETSC_PI * (double)SamElasticityGetModulus(elasticity));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

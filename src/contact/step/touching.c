@@ -335,7 +335,7 @@ static double PowerOf(const SamSolve *w)
 PetscErrorCode SamSolveFindTouching(SamSolve *w, Vec motion)
 {
   Step step = {.grid      = w->grid,
-               .modulus   = SamPairModulus(SamElasticityGetPair(w->elasticity)),
+               .modulus   = SamElasticityGetModulus(w->elasticity),
                .pressure  = w->s->pressure,
                .power     = PowerOf(w),
                .deviation = &w->deviation,

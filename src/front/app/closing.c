@@ -115,13 +115,11 @@ static PetscErrorCode PrintTimes(SamReport r)
 /* Prints the operator applications of both problems on each of the nested grids, and the time of their solves there. */
 static PetscErrorCode PrintGrids(SamReport r, SamContact contact)
 {
-  const SamSolver of[2] = {SamNormalAsSolver(SamContactGetNormal(contact)),
-                           SamTangentialAsSolver(SamContactGetTangential(contact))};
-
   PetscFunctionBegin;
   PetscCall(PetscPrintf(r->comm, "    on nested grids, operator applications and time:\n"));
   for (PetscInt depth = 0; depth < SAM_NESTED; depth++) {
-    const SamLevelWork *work[2] = {SamSolverGetWork(of[0], depth), SamSolverGetWork(of[1], depth)},
+    const SamLevelWork *work[2] = {SamContactGetWork(contact, SAM_BALANCE_NORMAL, depth),
+                                   SamContactGetWork(contact, SAM_BALANCE_TANGENTIAL, depth)},
                        *any     = work[work[0]->n[0] ? 0 : 1];
     double seconds[2]           = {work[0]->seconds, work[1]->seconds};
     char   size[32];

@@ -43,9 +43,8 @@ typedef struct {
   PetscReal              strength[SHOWN - 1]; /* and these, from the surface down, Pa */
   PetscLogDouble         start, told; /* times of the start of the computation, and of the last printed line, s */
 
-  char               source[PETSC_MAX_PATH_LEN + 16]; /* source of the bodies, for messages */
-  char               doubt[512];                      /* warnings about the steps as a cycle; empty: none */
-  SamFourierSettings transforms;
+  char source[PETSC_MAX_PATH_LEN + 16]; /* source of the bodies, for messages */
+  char doubt[512];                      /* warnings about the steps as a cycle; empty: none */
 } SamStressRun;
 
 static PetscErrorCode Warn(void *context, const char option[], const char format[], ...)
@@ -191,7 +190,6 @@ static const SamStateLayers *GetLayers(void *context, PetscInt k)
 static PetscErrorCode SetUpEvaluation(SamStressRun *run)
 {
   SamStressSource     source  = {.parameters = SamResultsGetParameters(run->results),
-                                 .settings   = &run->transforms,
                                  .name       = run->source,
                                  .has        = HasField,
                                  .read       = ReadField,
@@ -280,11 +278,9 @@ static double MemoryOf(const SamStressRun *run)
 static PetscErrorCode CheckFiles(const SamStressRequest *r, const SamArguments *arguments)
 {
   SamFiles files = {.count = 0};
-  char    *temporary;
 
   PetscFunctionBegin;
-  PetscCall(SamFileNameTemporary(r->output, &temporary));
-  PetscCall(SamFilesAddWritten(&files, "-output", r->output, NULL, temporary));
+  PetscCall(SamFilesAddOutput(&files, r->output));
   PetscCall(SamFilesCheck(&files, PETSC_COMM_WORLD, arguments));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -304,7 +300,7 @@ static PetscErrorCode SetUp(void *context, const SamArguments *arguments)
   PetscCall(SamEvaluationCreateFromOptions(&from, &run->evaluation));
   PetscCall(ReadStrengths(&from, run));
   PetscCall(SamOptionsHeading(&from, "Resources"));
-  PetscCall(SamFourierSettingsFromOptions(&run->transforms, &from));
+  PetscCall(SamEvaluationReadTransforms(&from, run->evaluation));
   PetscCall(SamOptionsRead(&from, NULL, 1, &quiet, &run->quiet, NULL));
   if (help) PetscCall(SamMemoryRefuse(PETSC_COMM_WORLD, 0, "", "", &from)); /* declares its option */
   if (help) PetscFunctionReturn(PETSC_SUCCESS);

@@ -171,11 +171,10 @@ static PetscErrorCode EstimateKept(const SamSetup *setup, const SamSimulationNee
 /* Returns the mean memory per cell of this rank, bytes, without kept steps. */
 static double BytesPerCell(const SamSetup *setup, const SamSimulationNeeds *needs)
 {
-  const int       several = needs->steps > 1, friction = needs->friction, coupled = needs->coupled;
-  const Bytes     first = step_bytes[SamGridIsRow(setup->grid)][0][friction][coupled];
-  const Bytes     b     = step_bytes[SamGridIsRow(setup->grid)][several][friction][coupled];
-  double          cell = b.cell, contact = b.contact;
-  const PetscBool slides = SamProblemSlides(setup->problem);
+  const int   several = needs->steps > 1, friction = needs->friction, coupled = needs->coupled;
+  const Bytes first = step_bytes[SamGridIsRow(setup->grid)][0][friction][coupled];
+  const Bytes b     = step_bytes[SamGridIsRow(setup->grid)][several][friction][coupled];
+  double      cell = b.cell, contact = b.contact;
 
   if (needs->touches == SAM_TOUCHES_FIRST) cell = PetscMax(cell, first.cell + TOUCHING_BYTES);
   if (needs->touches == SAM_TOUCHES_LATER) cell += TOUCHING_BYTES;
@@ -183,8 +182,8 @@ static double BytesPerCell(const SamSetup *setup, const SamSimulationNeeds *need
   if (SamElasticityGetTraits(setup->elasticity).upwind) contact += ROLLING_BYTES;
   if (needs->life) cell += LIFE_BYTES;
   if (needs->stiffness) contact += stiffness_bytes[several][friction][coupled];
-  if (slides && (needs->life || coupled)) cell += SLIDING_BYTES;
-  if (slides && needs->life) cell += SLIDING_LIFE_BYTES(needs->steps, needs->coupled);
+  if (needs->slides && (needs->life || coupled)) cell += SLIDING_BYTES;
+  if (needs->slides && needs->life) cell += SLIDING_LIFE_BYTES(needs->steps, needs->coupled);
   return cell + b.part * (double)needs->part + contact * (double)needs->contact;
 }
 

@@ -21,14 +21,6 @@ static double Get(SamContact contact, const char name[])
   return SamReportNumber(StateOf(contact), name);
 }
 
-/* Returns the name of a number in the contact's motion. */
-static const char *NameOf(SamContact contact, const char usual[])
-{
-  const SamMotionName *name = SamMotionFindName(SamContactGetMotion(contact), usual);
-
-  return name ? name->name : usual;
-}
-
 /* ---- rounding ---- */
 
 /* Sizes of forces and moments, and of translations and rotations; moments and rotations by their effect at the
@@ -114,7 +106,7 @@ static PetscErrorCode ViewSolution(const SamStep *s, SamContact c, const Sizes *
 {
   const SamMotion motion = SamContactGetMotion(c);
   const double    move = ROUNDING * sizes->rigid[0], work = sizes->load[0] * sizes->rigid[0];
-  const double    slip  = Clean(Get(c, NameOf(c, "slip_max")), move); /* NaN without friction */
+  const double    slip  = Clean(Get(c, SamContactNameOf(c, "slip_max")), move); /* NaN without friction */
   const SamState  state = StateOf(c);
 
   PetscFunctionBegin;
@@ -150,7 +142,7 @@ PetscErrorCode SamStepView(const SamStep *s, SamContact contact, PetscBool profi
   for (PetscInt k = 0; k < SAM_COMPONENTS; k++) {
     const PetscInt          c     = order[k];
     const SamComponentName *name  = &SamComponentNames[c];
-    const SamMotionName     rigid = SamMotionRigidName(SamContactGetMotion(contact), c);
+    const SamMotionName     rigid = SamContactRigidName(contact, c);
     const PetscBool         creep = rigid.name == name->creep, load = s->control.force[c];
     char                    fine[96] = "";
 
@@ -233,7 +225,7 @@ static double ValueOf(SamReport r, const SamStep *s, SamContact contact, int k)
   if (k == TIME) return (double)s->control.time;
   if (k < CONTACT) return Rounded(s, k - LOADS, s->load, sizes.load);
   if (k == RESIDUAL) return (double)SamLarger(s->check.normal, s->check.tangential);
-  return Clean(Get(contact, NameOf(contact, columns[k].number)), k == SLIP ? ROUNDING * sizes.rigid[0] : 0);
+  return Clean(Get(contact, SamContactNameOf(contact, columns[k].number)), k == SLIP ? ROUNDING * sizes.rigid[0] : 0);
 }
 
 PetscErrorCode SamReportStepLine(SamReport r, const SamStep *s, SamContact contact, double seconds, double left)

@@ -88,11 +88,10 @@ static void Show(SamReport r, const char kind[], PetscInt it, PetscReal error)
 
 static PetscErrorCode Watch(SamSolver solver, PetscInt it, PetscReal error, void *context)
 {
-  const SamReport r      = (SamReport)context;
-  const SamNormal normal = SamContactGetNormal(r->contact);
+  const SamReport r = (SamReport)context;
 
   PetscFunctionBegin;
-  Show(r, solver == SamNormalAsSolver(normal) ? "normal" : "tangential", it, error);
+  Show(r, SamContactIsNormal(r->contact, solver) ? "normal" : "tangential", it, error);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -100,8 +99,7 @@ PetscErrorCode SamProgressWatch(SamReport r, SamContact contact)
 {
   PetscFunctionBegin;
   if (!r->progress.active || r->contact == contact) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SamSolverMonitorSet(SamNormalAsSolver(SamContactGetNormal(contact)), Watch, r));
-  PetscCall(SamSolverMonitorSet(SamTangentialAsSolver(SamContactGetTangential(contact)), Watch, r));
+  PetscCall(SamContactSetMonitor(contact, Watch, r));
   r->contact = contact;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

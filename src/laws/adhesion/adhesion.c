@@ -229,7 +229,7 @@ static PetscErrorCode View(SamLaw law, SamState state, PetscViewer viewer)
   const SamAdhesion *a      = (const SamAdhesion *)law->data;
   const double      *n      = SamStateReadNumbers(state, SamStateFindNumber(state, numbers[AREA].name));
   const double       most   = *SamStateReadNumbers(state, SamStateFindNumber(state, "pull_max"));
-  const double       k      = 4. / 3 * (double)SamPairModulus(SamElasticityGetPair(law->elasticity));
+  const double       k      = 4. / 3 * (double)SamElasticityGetModulus(law->elasticity);
   char               of[32] = "";
 
   PetscFunctionBegin;

@@ -24,7 +24,7 @@ static double CohesiveLength(SamLaw law, double *cells)
 {
   const SamAdhesion *a      = (const SamAdhesion *)law->data;
   const SamGrid      grid   = law->grid;
-  const double       young  = (double)SamPairModulus(SamElasticityGetPair(law->elasticity));
+  const double       young  = (double)SamElasticityGetModulus(law->elasticity);
   const double       length = young * SamAdhesionRange(a) / (double)a->stress;
 
   *cells = length / (double)(grid->axes > 1 ? PetscMax(grid->dx, grid->dy) : grid->dx);

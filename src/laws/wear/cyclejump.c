@@ -14,7 +14,9 @@
 #include <petsam/private/motionimpl.h>
 #include <petsam/private/state.h>
 #include <petsam/private/balance.h>
+#include <petsam/private/body.h>
 #include <petsam/private/contact.h>
+#include <petsam/private/elasticity.h>
 #include <petsam/private/normal.h>
 #include <petsam/private/problem.h>
 #include <math.h>
@@ -127,6 +129,15 @@ PetscErrorCode SamLifeDestroy(SamLife *life)
   PetscCall(SamRateDestroyPasses(l, &l->middle));
   PetscCall(PetscFree(l->turns));
   PetscCall(PetscFree(l));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamLifeDescribeWorn(SamLife l, const SamLifeReport *report, int body, char text[], size_t size)
+{
+  const SamPair pair = SamElasticityGetPair(SamProblemGetElasticity(l->problem));
+
+  PetscFunctionBegin;
+  PetscCall(SamBodyAdviseWorn(SamPairBody(pair, body), body + 1, report->depth[body], text, size));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -30,7 +30,7 @@ PetscErrorCode SamBackEnter(SamBack *b, PetscInt step, const double lambda[])
   SamEntering      in = {.approach = &r->approach,
                          .fresh    = r->fresh,
                          .plane    = SamElasticityGetTraits(b->elasticity).plane,
-                         .constant = 4 / (PETSC_PI * (double)SamPairModulus(SamElasticityGetPair(b->elasticity))),
+                         .constant = 4 / (PETSC_PI * (double)SamElasticityGetModulus(b->elasticity)),
                          .normal   = {r->fresh ? 0 : r[-1].load[SAM_COMPONENT_N], r->load[SAM_COMPONENT_N]},
                          .grid     = b->grid,
                          .friction = b->friction};

@@ -175,6 +175,7 @@ PetscErrorCode SamEvaluationSetUp(SamEvaluation e, const SamStressSource *source
 {
   PetscFunctionBegin;
   e->source = *source;
+  if (e->settings) e->source.settings = e->settings;
   PetscCall(SamElasticityReference(source->bodies));
   e->grid = SamElasticityGetGrid(source->bodies);
   PetscCall(CreateStress(e));

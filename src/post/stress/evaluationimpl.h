@@ -4,6 +4,7 @@
 
 #include <petsam/private/evaluation.h>
 #include <petsam/private/fatigue.h>
+#include <petsam/private/fourier.h>
 #include <petsam/private/problemimpl.h>
 #include <petsam/private/stressimpl.h>
 
@@ -85,8 +86,10 @@ struct _n_SamEvaluation {
   PetscBool           passing; /* points travel: a cycle's states are the stresses of a row of cells, and far away */
   SamFatigueConstants constants[SAM_MATERIALS]; /* without the constants of the body */
   PetscInt materials; /* number of materials with their own constants, from the top; 1: constants[0] holds for all */
-  SamFatigueAverage average;
-  PetscReal         length; /* length of the average, m */
+  SamFatigueAverage         average;
+  PetscReal                 length; /* length of the average, m */
+  SamFourierSettings        transforms;
+  const SamFourierSettings *settings; /* of the transforms; NULL: those of the source */
   /* bodies and steps */
   SamGrid         grid;
   SamStress       stress;

@@ -183,6 +183,14 @@ PetscErrorCode SamEvaluationCreateFromOptions(const SamOptions *from, SamEvaluat
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode SamEvaluationReadTransforms(const SamOptions *from, SamEvaluation e)
+{
+  PetscFunctionBegin;
+  PetscCall(SamFourierSettingsFromOptions(&e->transforms, from));
+  e->settings = &e->transforms;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode SamEvaluationAddParameters(SamEvaluation e, SamParameters *p)
 {
   const SamBodyPlace surface = SamBodyAt(SamEvaluationBody(e), 0);

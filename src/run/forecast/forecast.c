@@ -6,6 +6,7 @@
 #include <petsam/private/advice.h>
 #include <petsam/private/balance.h>
 #include <petsam/private/elasticity.h>
+#include <petsam/private/problemimpl.h>
 
 /* Share of the cells that count as in contact where no closed-form solution is known, as for rough surfaces */
 #define UNKNOWN 0.3
@@ -89,6 +90,7 @@ PetscErrorCode SamSimulationEstimateShares(SamSimulation s, SamSimulationNeeds *
   PetscCall(PetscOptionsGetString(NULL, NULL, "-slip_direction", direction, sizeof(direction), NULL));
   PetscCall(PetscStrcmp(direction, "end", &end));
   needs->coupled = SamElasticityGetTraits(s->setup.elasticity).coupled;
+  needs->slides  = SamProblemSlides(s->setup.problem);
   needs->touches = end ? SAM_TOUCHES_NEVER : FindTouches(s);
   needs->contact = UNKNOWN;
   needs->part    = 0;

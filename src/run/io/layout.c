@@ -153,7 +153,7 @@ SamFileGrowth SamOutputGrowth(SamOutput o)
   return growth;
 }
 
-PetscErrorCode SamOutputForecast(SamOutput o, double *bytes)
+PetscErrorCode SamOutputForecast(SamOutput o, const char filename[], double *bytes, double *space)
 {
   const SamState      state  = o->state[SAM_SERIES_HISTORY];
   const SamFileGrowth growth = SamOutputGrowth(o);
@@ -170,6 +170,7 @@ PetscErrorCode SamOutputForecast(SamOutput o, double *bytes)
 
     if (n->result) *bytes += SeriesBytes(steps, matrix ? CHUNK_MATRICES : CHUNK_STEPS, (hsize_t)n->count);
   }
+  PetscCall(SamFileGetSpace(o->grid, "output", filename, space));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -18,18 +18,43 @@ PetscErrorCode SamFilesAdd(SamFiles *f, const char option[], const char name[], 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamFilesAddWritten(SamFiles *f, const char option[], const char name[], char *derived, char *other)
+/* Adds a name that is derived from that of a file, and frees it. */
+static PetscErrorCode AddDerived(SamFiles *f, const char option[], char *name)
 {
-  char *names[2] = {derived, other};
-
   PetscFunctionBegin;
   PetscCall(SamFilesAdd(f, option, name, PETSC_TRUE));
-  for (int k = 0; k < 2; k++) {
-    if (!names[k]) continue;
-    PetscCall(SamFilesAdd(f, option, names[k], PETSC_TRUE));
-    f->list[f->count - 1].derived = PETSC_TRUE;
-    PetscCall(PetscFree(names[k]));
-  }
+  f->list[f->count - 1].derived = PETSC_TRUE;
+  PetscCall(PetscFree(name));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamFilesAddWritten(SamFiles *f, const char option[], const char name[], char *derived, char *other)
+{
+  PetscFunctionBegin;
+  PetscCall(SamFilesAdd(f, option, name, PETSC_TRUE));
+  PetscCall(AddDerived(f, option, derived));
+  PetscCall(AddDerived(f, option, other));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamFilesFind(MPI_Comm comm, const char name[], PetscBool *there)
+{
+  double bytes;
+
+  PetscFunctionBegin;
+  PetscCall(SamFileGetBytes(comm, name, &bytes));
+  *there = bytes >= 0 ? PETSC_TRUE : PETSC_FALSE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamFilesAddOutput(SamFiles *f, const char name[])
+{
+  char *temporary;
+
+  PetscFunctionBegin;
+  PetscCall(SamFileNameTemporary(name, &temporary));
+  PetscCall(SamFilesAdd(f, "-output", name, PETSC_TRUE));
+  PetscCall(AddDerived(f, "-output", temporary));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

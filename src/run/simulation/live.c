@@ -2,7 +2,6 @@
 #include "run.h"
 #include <petsam/private/state.h>
 #include <petsam/private/wear.h>
-#include <petsam/private/body.h>
 #include <petsam/private/contact.h>
 #include <petsam/private/stiffness.h>
 
@@ -236,7 +235,7 @@ static PetscErrorCode WarnOfWorn(SamSimulation s, const SamLifeReport *r, PetscB
   for (int b = 0; b < 2; b++) {
     char worn[160], text[224];
 
-    PetscCall(SamBodyAdviseWorn(SamPairBody(s->setup.pair, b), b + 1, r->depth[b], worn, sizeof(worn)));
+    PetscCall(SamLifeDescribeWorn(s->life, r, b, worn, sizeof(worn)));
     if (!worn[0]) continue;
     *ended = *ended || s->plan.stop_worn;
     if (s->worn[b]) continue;

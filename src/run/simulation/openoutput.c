@@ -1,6 +1,6 @@
 /* The results of a simulation: a new file, or the next part; and the expected size of the file. */
 #include "run.h"
-#include <petsam/private/file.h>
+#include <petsam/private/runfiles.h>
 #include <petsam/private/parts.h>
 #include <string.h>
 
@@ -101,12 +101,12 @@ static PetscErrorCode Continue(SamSimulation s)
 PetscErrorCode SamSimulationOpenResults(SamSimulation s)
 {
   const PetscBool restarted = s->checkpoints.restart[0] != '\0';
-  double          bytes     = -1;
+  PetscBool       there     = PETSC_FALSE;
 
   PetscFunctionBegin;
-  if (restarted) PetscCall(SamFileGetBytes(s->comm, s->filename, &bytes));
+  if (restarted) PetscCall(SamFilesFind(s->comm, s->filename, &there));
   /* it is an error if the stopped run's own file is missing */
-  if (restarted && (bytes >= 0 || !strcmp(s->filename, s->point.results))) {
+  if (restarted && (there || !strcmp(s->filename, s->point.results))) {
     PetscCall(Continue(s));
   } else {
     s->point.part = 1;
@@ -128,8 +128,7 @@ PetscErrorCode SamSimulationForecast(SamSimulation s, char text[], size_t size)
   char   advice[PETSC_MAX_PATH_LEN + 200];
 
   PetscFunctionBegin;
-  PetscCall(SamOutputForecast(s->output, &bytes));
-  PetscCall(SamFileGetSpace(s->setup.grid, "output", s->filename, &space));
+  PetscCall(SamOutputForecast(s->output, s->filename, &bytes, &space));
   SamDescribeBytes(bytes, words[0], sizeof(words[0]));
   SamDescribeBytes(space, words[1], sizeof(words[1]));
   (void)snprintf(text, size, "%s %s, %s free there",

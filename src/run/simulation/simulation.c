@@ -2,7 +2,6 @@
 #include "run.h"
 #include <petsam/private/checkpoint.h>
 #include <petsam/private/contact.h>
-#include <petsam/private/file.h>
 #include <petsam/private/runfiles.h>
 #include <petsam/private/problem.h>
 #include <petsam/private/state.h>
@@ -372,10 +371,7 @@ PetscErrorCode SamSimulationCheckFiles(SamSimulation s, const SamArguments *argu
 
   PetscFunctionBegin;
   PetscCall(SamSimulationGetFiles(s, &own));
-  if (own.output) {
-    PetscCall(SamFileNameTemporary(own.output, &other));
-    PetscCall(SamFilesAddWritten(&files, "-output", own.output, NULL, other));
-  }
+  if (own.output) PetscCall(SamFilesAddOutput(&files, own.output));
   if (own.checkpoint) {
     PetscCall(SamCheckpointNames(own.checkpoint, &one, &other));
     PetscCall(SamFilesAddWritten(&files, "-checkpoint", own.checkpoint, one, other));

@@ -1,6 +1,6 @@
 /* Checkpoints of a simulation, its stop before the end, and its continuation from a checkpoint. */
 #include "run.h"
-#include <petsam/private/file.h>
+#include <petsam/private/runfiles.h>
 #include <petsam/private/problem.h>
 #include <stdlib.h>
 
@@ -76,16 +76,16 @@ void SamSimulationDescribeCheckpoints(SamSimulation s, char text[], size_t size)
 PetscErrorCode SamSimulationBeginCheckpoints(SamSimulation s)
 {
   SamCheckpoints *const cp = &s->checkpoints;
-  double                bytes;
+  PetscBool             there;
 
   PetscFunctionBegin;
   cp->step_start = MPI_Wtime();
   cp->seen       = s->point.steps;
   cp->last       = 0;
   if (!cp->filename[0] || cp->files) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SamFileGetBytes(s->comm, cp->filename, &bytes));
+  PetscCall(SamFilesFind(s->comm, cp->filename, &there));
   PetscCall(SamCheckpointCreate(s->setup.grid, cp->filename, &cp->files));
-  PetscCheck(bytes < 0 || cp->restart[0] || cp->overwrite, s->comm, SAM_ERR_USER,
+  PetscCheck(!there || cp->restart[0] || cp->overwrite, s->comm, SAM_ERR_USER,
              "-checkpoint %s: is the checkpoint of an earlier run: continue that with -restart %s, or start anew with "
              "-overwrite",
              cp->filename, cp->filename);
