@@ -197,6 +197,12 @@ static void OddRowsBackward(SamFourier F, const Complex *slab, Real field[])
   }
 }
 
+/* True if a row has nothing but zeros, as most rows of tractions beside a contact. */
+static inline PetscBool IsEmptyRow(ptrdiff_t n, const Real row[])
+{
+  return row[0] == 0 && !memcmp(row, row + 1, sizeof(Real) * (size_t)(n - 1)) ? PETSC_TRUE : PETSC_FALSE;
+}
+
 static void RowsForward(SamFourier F, SamFourierMode mode, const Real field[], Complex *slab)
 {
   TRANSFORM      *t  = &F->PART;
@@ -209,6 +215,10 @@ static void RowsForward(SamFourier F, SamFourierMode mode, const Real field[], C
   }
   LineClear(&t->rows[mode], nx / 2, t->row);
   for (PetscInt j = 0; j < F->grid->rows; j++) {
+    if (IsEmptyRow(nx, field + j * nx)) {
+      memset(slab + j * (n + 1), 0, sizeof(Complex) * (size_t)(n + 1));
+      continue;
+    }
     LinePut(&t->rows[mode], nx / 2, (const Complex *)(field + j * nx), t->row);
     if (nx % 2) t->row[last][0] = field[(j + 1) * nx - 1];
     LineForward(&t->rows[mode], t->row, t->line);
