@@ -73,6 +73,12 @@ def test_more_accuracy_takes_more_cells(petsam, sphere_alone):
     assert many > 1.5 * few
 
 
+@pytest.mark.parametrize("asked, needed", [("5%", 1), ("1%", 2)])
+def test_a_width_that_is_nearly_the_same_takes_no_trial(petsam, sphere_alone, asked, needed):
+    contact = {**sphere_alone, "friction": 0.3, "load_n": 100, "load_tx": 15}
+    assert chosen(petsam(contact, "-accuracy", asked).stdout)[1] == needed
+
+
 def test_grid_auto_is_an_accuracy_of_one_per_cent(petsam, sphere_alone):
     auto, asked = (petsam(sphere_alone, *words).stdout for words in (["-grid", "auto"], ["-accuracy", "1%"]))
     assert chosen(auto) == chosen(asked)

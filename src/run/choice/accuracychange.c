@@ -27,7 +27,8 @@
 #define AFFORDED   60.0  /* s: a run of more is not for a number whose error is unknown or falls slowly, */
 #define DEAR       20.0  /* nor for another one if it takes so many times longer than all trials so far */
 #define BEYOND     5.0 /* other errors so many times larger than asked do not become as small on finer cells, either */
-#define SAME       0.1 /* relative changes of the grid's width and place that are no reason for another trial */
+#define SAME       0.2 /* part of the grid's width by which it is wider, or elsewhere, without another trial */
+#define PAYS       0.5 /* part of the cells that a narrower grid has at most if it pays for another trial */
 
 /* Returns the error of a number by the steps: that to twice as many is half of it, that to half as many the whole. */
 static double ErrorBySteps(const SamErrorRow *row, PetscInt steps)
@@ -190,14 +191,18 @@ static void Divide(const SamTask *task, double factor, SamChoice *c)
     c->steps = (PetscInt)PetscMin(ceil((double)c->steps * factor * (1 - 1e-9)), MOST_STEPS);
 }
 
-/* True if the contact that was found needs another place or width of the grid. */
+/* True if the contact that was found needs another place or width of the grid, or so much less of it that a run and
+   another trial take no longer than a run on the present one. */
 static PetscBool Moves(const SamTask *task, const SamChoice *was, const SamChoice *c)
 {
-  for (PetscInt k = 0; k < task->axes; k++)
-    if (PetscAbsReal(c->width[k] / was->width[k] - 1) > SAME ||
-        PetscAbsReal(c->center[k] - was->center[k]) > SAME * was->width[k])
+  double part = 1;
+
+  for (PetscInt k = 0; k < task->axes; k++) {
+    if (c->width[k] > (1 + SAME) * was->width[k] || PetscAbsReal(c->center[k] - was->center[k]) > SAME * was->width[k])
       return PETSC_TRUE;
-  return PETSC_FALSE;
+    part *= (double)(c->width[k] / was->width[k]);
+  }
+  return part < PAYS ? PETSC_TRUE : PETSC_FALSE;
 }
 
 void SamTaskChange(SamTask *task, const SamTrial *t, SamChoice *c, PetscBool *last, char limit[])
