@@ -5,6 +5,7 @@
   columns, and only these rows and columns of the result. So:
     1. Each of the ny rows is padded with zeros in a buffer and transformed, real to half complex. This uses a complex
        transform of half the length, which FFTW plans in a fraction of the time of a real one, and computes faster.
+       Rows of zeros stay zeros.
     2. Ranks of one node access all rows in shared memory (workspace.c). Otherwise rows are exchanged for columns by
        FFTW's distributed transpose.
     3. A few columns at a time are gathered into a buffer that stays in cache. There the padding along y is done by
