@@ -194,7 +194,7 @@ def test_stresses_of_bodies_that_yield_are_those_of_their_layers_too(launcher, t
     rows = ["time,load_n,load_tx", *(f"{k},{n!r},{tx!r}" for k, (n, tx) in enumerate(steps, 1))]
     (tmp_path / "h.csv").write_text("\n".join(rows))
     case = dict(YIELDING, history="h.csv", output="c.h5", output_fields="all,plastic", allow_edge_contact=True)
-    conftest.execute(launcher, tmp_path, [case], 1, 0)
+    conftest.execute(launcher, tmp_path, [dict(case, step_divide="false")], 1, 0)
     more = dict(fatigue_crossland_alpha=0.2, depths=(0.0, 5e-5))
     fatigue = dict(more, fatigue="swt,crossland")
     run_python(

@@ -106,7 +106,7 @@ def test_profile_is_the_stress_on_the_surface(folder):
 def test_fatigue_names_the_largest_value_and_its_place(folder, name):
     file = petsam.open(folder / f"{name}.h5")
     figure = bodies.fatigue([file])
-    title = figure.axes[0].get_title()
+    title = figure.axes[0].get_title().replace("\N{MINUS SIGN}", "-")
     with h5py.File(folder / f"{name}.h5") as f:
         swt = f["swt"][:1] if name == "maps" else f["swt"][:]
         z, y, x = np.unravel_index(np.argmax(swt), swt.shape)
