@@ -183,9 +183,9 @@ const SamLevelWork *SamContactGetWork(SamContact c, SamBalanceKind kind, PetscIn
 
 const char *SamContactNameOf(SamContact c, const char usual[])
 {
-  const SamMotionName *name = SamMotionFindName(c->motion, usual);
+  const SamMotionName *own = SamMotionFindName(c->motion, usual);
 
-  return name ? name->name : usual;
+  return own && own->name ? own->name : usual;
 }
 
 SamMotionName SamContactRigidName(SamContact c, SamComponent component)
@@ -337,15 +337,13 @@ PetscErrorCode SamContactOfferCondition(SamContact c, const SamCondition *condit
 
 PetscErrorCode SamContactGetNumber(SamContact c, const char name[], PetscReal *value)
 {
-  const SamMotionName *own;
-  PetscInt             id;
+  PetscInt id;
 
   PetscFunctionBegin;
   SamValidHandle(c, SamContact, 1);
   SamValidPointer(name, 2);
   SamValidPointer(value, 3);
-  own = SamMotionFindName(c->motion, name);
-  id  = SamStateFindNumber(c->state, own && own->name ? own->name : name);
+  id = SamStateFindNumber(c->state, SamContactNameOf(c, name));
   PetscCheck(id >= 0, c->grid->comm, PETSC_ERR_ARG_UNKNOWN_TYPE, "Unknown number %s", name);
   *value = *SamStateReadNumbers(c->state, id);
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -36,14 +36,15 @@ typedef enum {
   that is done, and the fraction of all work that is done (0: unknown); NULL: not called.
 */
 typedef struct {
-  SamElasticity             bodies;
-  const SamParameters      *parameters; /* that define the contact, borrowed; NULL: no part finds what it needs */
-  const SamFourierSettings *settings;   /* settings of the transforms, borrowed; NULL: those of the bodies */
-  const char               *name;       /* name of the origin of the bodies, for messages; borrowed */
-  PetscInt                  steps;
-  PetscBool                 before;
-  PetscBool                 slides; /* true: the surfaces slide past each other, so that points of body 2 move */
-  PetscBool                 slips;  /* true: steps follow each other, and have slips, not slip velocities */
+  SamElasticity        bodies;
+  const SamParameters *parameters; /* that define the contact, borrowed; NULL: no part finds what it needs */
+  const SamFourierSettings
+             *settings; /* of the transforms, borrowed, NULL: those of the bodies; set by the evaluation */
+  const char *name;     /* name of the origin of the bodies, for messages; borrowed */
+  PetscInt    steps;
+  PetscBool   before;
+  PetscBool   slides; /* true: the surfaces slide past each other, so that points of body 2 move */
+  PetscBool   slips;  /* true: steps follow each other, and have slips, not slip velocities */
   /* true if all steps have a field */
   PetscBool (*has)(void *context, const char field[]);
   PetscErrorCode (*read)(void *context, PetscInt step, const char field[], double values[]);

@@ -174,8 +174,8 @@ static PetscErrorCode CreateParts(SamEvaluation e)
 PetscErrorCode SamEvaluationSetUp(SamEvaluation e, const SamStressSource *source)
 {
   PetscFunctionBegin;
-  e->source = *source;
-  if (e->settings) e->source.settings = e->settings;
+  e->source          = *source;
+  e->source.settings = e->settings;
   PetscCall(SamElasticityReference(source->bodies));
   e->grid = SamElasticityGetGrid(source->bodies);
   PetscCall(CreateStress(e));

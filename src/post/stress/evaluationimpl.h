@@ -89,7 +89,7 @@ struct _n_SamEvaluation {
   SamFatigueAverage         average;
   PetscReal                 length; /* length of the average, m */
   SamFourierSettings        transforms;
-  const SamFourierSettings *settings; /* of the transforms; NULL: those of the source */
+  const SamFourierSettings *settings; /* of the transforms; NULL: those of the bodies */
   /* bodies and steps */
   SamGrid         grid;
   SamStress       stress;
