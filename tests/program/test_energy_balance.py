@@ -160,13 +160,22 @@ def test_shear_that_is_locked_in_while_n_grows_is_right_in_parts(unlike, wrong):
     assert force[parts] == pytest.approx(force[many], rel=0.02)
     exact = many["dissipated_energy"].sum()
     assert 0.3 * abs(one["dissipated_energy"].sum() - exact) < one["energy_error"].sum()
-    assert parts["dissipated_energy"].sum() == pytest.approx(exact, rel=0.1)
+    assert abs(parts["dissipated_energy"].sum() - exact) < min(0.15 * exact, 1.2 * parts["energy_error"].sum())
 
 
-def test_shear_that_is_locked_in_nearly_exactly_is_not_divided(petsam, tmp_path):
-    """All sticks, so that any difference would be large beside the energy."""
-    (tmp_path / "h.csv").write_text("time,load_n,disp_x\n0,1000,0\n1,1040,2e-8\n2,1080,4e-8\n")
-    assert "solved in parts" not in petsam(dict(CASE, friction=0.5, history="h.csv")).stdout
+@pytest.mark.parametrize("rows", [
+    "time,load_n,disp_x\n0,1000,0\n1,1040,2e-8\n2,1080,4e-8\n",
+    "time,load_n,load_tx\n0,500,100\n1,1000,290\n2,2000,590\n",
+])  # fmt: skip
+@pytest.mark.parametrize("shape", ["sphere", "punch"])
+def test_shear_that_is_locked_in_nearly_exactly_is_not_divided(petsam, tmp_path, rows, shape):
+    """All sticks, so that any difference would be large beside the energy; a contact may grow with N, or not."""
+    (tmp_path / "h.csv").write_text(rows)
+    case = dict(CASE, friction=0.5, history="h.csv")
+    if shape == "punch":
+        case = {name: value for name, value in case.items() if "gap_" not in name}
+        case |= dict(gap_type="punch", gap_flat_radius=8e-4, gap_edge_radius=0.02)
+    assert "solved in parts" not in petsam(case).stdout
 
 
 def test_work_of_cells_that_enter_may_be_none_at_all():

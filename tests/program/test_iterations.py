@@ -150,7 +150,7 @@ def test_products_where_force_and_load_grow_together_near_sliding(petsam, tmp_pa
     """At nu = 0 all shear is along one line: a cell that slips does not tell how far."""
     petsam(ball(n, friction=0.1, load_n=1000.0, grid_size=size, gap_radius1=0.2, gap_radius2=0.2, body1_young=210e9,
                 body2_young=210e9, body1_poisson=0.0, body2_poisson=0.0),
-           dict(load_tx=float(tx), load_ty=ty, steps=steps, step_divide="false", output="out.h5"))  # fmt: skip
+           dict(load_tx=float(tx), load_ty=ty, steps=steps, output="out.h5"))  # fmt: skip
     with h5py.File(tmp_path / "out.h5") as f:
         assert max(f["history/tangential_applies"]) <= 28
 
