@@ -178,6 +178,25 @@ def test_shear_that_is_locked_in_nearly_exactly_is_not_divided(petsam, tmp_path,
     assert "solved in parts" not in petsam(case).stdout
 
 
+LOADED = "time,load_n,load_tx\n0,500,100\n1,1000,290\n2,1800,590\n"
+
+
+def test_steps_of_layers_that_load_with_their_shear_are_not_divided(petsam, tmp_path):
+    """The work of loads that are given is not what tells if the shear is locked in rightly."""
+    layer = {f"body2_layer_{name}": value for name, value in (("young", 210e9), ("poisson", 0.2), ("thickness", 1e-3))}
+    (tmp_path / "h.csv").write_text(LOADED)
+    assert (
+        "solved in parts"
+        not in petsam(dict(CASE, friction=0.5, body2_poisson=0.2, body1_poisson=0.2, history="h.csv"), layer).stdout
+    )
+
+
+def test_steps_of_dissimilar_bodies_are_divided_where_n_grows(petsam, tmp_path):
+    """The pressure moves their surfaces in the step."""
+    (tmp_path / "h.csv").write_text(LOADED)
+    assert "solved in parts" in petsam(dict(CASE, friction=0.5, body2_young=100e9, history="h.csv")).stdout
+
+
 def test_work_of_cells_that_enter_may_be_none_at_all():
     """Where they do most of it, more steps find less and less: 6 % was printed for a tenth of the energy and more."""
     rows = dict(load_n=(1000, 1202, 1572, 2073, 2278, 2586), disp_x=(0, 4.8e-8, -1.2e-7, 1.4e-7, -9e-8, 6.5e-8))

@@ -237,9 +237,11 @@ PetscErrorCode SamSolutionDeclareNumbers(SamState state, SamMotion motion)
 }
 
 /* Terms beside the work of the loads: the change of the elastic energy by the shear and by the pressure, the work in
-   cells that are released (J), and the sum of the bounds before and after the step (N). */
+   cells that are released (J), and the sum of the bounds before and after the step (N); `balances`:
+   true if these add up to it. */
 typedef struct {
-  double locked, pressed, released, bore, bears;
+  PetscBool balances;
+  double    locked, pressed, released, bore, bears;
 } Balance;
 
 static PetscErrorCode SumCells(SamProblem problem, const SamSolution *last, const SamSolution *s,
@@ -398,45 +400,57 @@ static PetscErrorCode HasBalance(SamProblem problem, const SamSolution *before, 
 
   Bodies without this balance have the difference of similar ones whose stiffness k follows the contact's radius, the
   cube root of N: the work of a load with dT/dd from k0 to k1 is (k1 - k0)/12 dd^2 below that of its mean, a third of
-  (k1 - k0)/(k1 + k0) times the uncertain work. A difference that is rounding beside the stored energy is none.
+  (k1 - k0)/(k1 + k0) times the uncertain work. Where N grows on bodies of alike materials, T that is given as a load,
+  like N, grows as the shear that is locked in takes it to, or both as displacements: only others count. A difference
+  that is rounding beside the stored energy is none.
 */
 #define CURVED   0.5
 #define RELEASES 0.3
 #define LOCKS    0.002
 #define ROUNDING 1e-9
 
-/* Computes the work of the loads of one kind in a step if they change in proportion to the displacements, and that part
-   of it which is uncertain. */
-static void FindWork(const SamSolution *before, const SamSolution *s, SamBalanceKind kind, double *work, double *unsure)
+/* The work of the loads of one kind in a step if they change in proportion to the displacements, what of it is not
+   certain, and what of that is of loads that are not given as N is, by a load or a displacement (J) */
+typedef struct {
+  double all, unsure, unlike;
+} Work;
+
+static Work FindWork(const SamSolution *before, const SamSolution *s, SamBalanceKind kind)
 {
-  *work = *unsure = 0;
+  const PetscBool *given = s->control.force;
+  Work             work  = {0};
+
   for (PetscInt n = 0; n < 3; n++) {
     const PetscInt c   = SamComponentsOf[kind][n];
     const double   way = (double)(s->rigid[c] - before->rigid[c]);
+    const double   may = CURVED * fabs((double)(s->load[c] - before->load[c]) * way);
 
-    *work += 0.5 * (double)(before->load[c] + s->load[c]) * way;
-    *unsure += CURVED * fabs((double)(s->load[c] - before->load[c]) * way);
+    work.all += 0.5 * (double)(before->load[c] + s->load[c]) * way;
+    work.unsure += may;
+    work.unlike += given[c] != given[SAM_COMPONENT_N] ? may : 0;
   }
+  return work;
 }
 
-static double ErrorByBalance(const SamSolution *before, const SamSolution *s, PetscBool balances,
-                             const double numbers[NUMBERS], const Balance *balance)
+static double ErrorByBalance(const SamSolution *before, const SamSolution *s, const double numbers[NUMBERS],
+                             const Balance *balance)
 {
   const double    more = PetscMax(balance->bore, balance->bears), less = PetscMin(balance->bore, balance->bears);
-  const PetscReal way = hypot(s->rigid[SAM_COMPONENT_TX] - before->rigid[SAM_COMPONENT_TX],
-                              s->rigid[SAM_COMPONENT_TY] - before->rigid[SAM_COMPONENT_TY]);
-  double          work, unsure, presses, normal, lost, lacks, loses, stiffer;
+  const PetscReal way    = hypot(s->rigid[SAM_COMPONENT_TX] - before->rigid[SAM_COMPONENT_TX],
+                                 s->rigid[SAM_COMPONENT_TY] - before->rigid[SAM_COMPONENT_TY]);
+  const PetscBool grows  = more == balance->bears ? PETSC_TRUE : PETSC_FALSE;
+  const Work      normal = FindWork(before, s, SAM_BALANCE_NORMAL), work = FindWork(before, s, SAM_BALANCE_TANGENTIAL);
+  const double    stiffer = more > 0 ? 1 - cbrt(less / more) : 0, unsure = work.unsure;
+  double          lost, lacks, loses;
 
-  FindWork(before, s, SAM_BALANCE_NORMAL, &presses, &normal);
-  FindWork(before, s, SAM_BALANCE_TANGENTIAL, &work, &unsure);
-  lost    = RELEASES * PetscMax(balance->released, PetscMax(unsure, CURVED * balance->bore * (double)way));
-  stiffer = more > 0 ? 1 - cbrt(less / more) : 0;
-  lacks   = balances ? fabs(work - balance->locked - numbers[DISSIPATED_ENERGY]) : unsure * stiffer / (2 - stiffer) / 3;
-  if (balances && more == balance->bears && normal > 0)
-    lacks = PetscMin(lacks, fabs(lacks - (presses - balance->pressed) / normal * unsure));
+  lost  = RELEASES * PetscMax(balance->released, PetscMax(unsure, CURVED * balance->bore * (double)way));
+  lacks = balance->balances ? fabs(work.all - balance->locked - numbers[DISSIPATED_ENERGY])
+                            : (grows && !SamRuleTouches(s->rule) ? work.unlike : unsure) * stiffer / (2 - stiffer) / 3;
+  if (balance->balances && grows && normal.unsure > 0)
+    lacks = PetscMin(lacks, fabs(lacks - (normal.all - balance->pressed) / normal.unsure * unsure));
   if (lacks <= ROUNDING * numbers[STORED_ENERGY]) lacks = 0;
-  if (more == balance->bears && lacks <= LOCKS * (fabs(balance->locked) + unsure)) lacks = 0;
-  loses = PetscMax(lacks, balance->bears > 0 ? (balances ? RELEASES : 1) * balance->released : lost);
+  if (grows && lacks <= LOCKS * (fabs(balance->locked) + unsure)) lacks = 0;
+  loses = PetscMax(lacks, balance->bears > 0 ? (balance->balances ? RELEASES : 1) * balance->released : lost);
   return PetscMax(PetscMax(lacks - unsure, 0), balance->bore > 0 ? (1 - less / more) * loses : 0);
 }
 
@@ -445,7 +459,7 @@ PetscErrorCode SamSolutionComputeNumbers(SamProblem problem, SamState state, con
 {
   double *const numbers = SamStateNumbers(state, SamStateFindNumber(state, declared[0].name), SAM_TRIED);
   double *const contact = SamStateNumbers(state, SamStateFindNumber(state, contact_edge.name), SAM_TRIED);
-  PetscBool     streams, offset, friction, balances;
+  PetscBool     streams, offset, friction;
   Balance       balance;
   const SamGrid grid = SamProblemGetGrid(problem);
 
@@ -461,11 +475,11 @@ PetscErrorCode SamSolutionComputeNumbers(SamProblem problem, SamState state, con
   PetscCall(SamProblemDisplace(problem, state, &s->control, NULL, NULL, NULL, &offset));
   if (offset) numbers[STORED_ENERGY] = NAN; /* the tractions alone do not cause the displacements */
   if (offset && !before) numbers[ENERGY_ERROR] = fabs(numbers[DISSIPATED_ENERGY]); /* nor in proportion to the load */
-  PetscCall(HasBalance(problem, before, s, &balances));
-  balances            = balances && !offset && !streams ? PETSC_TRUE : PETSC_FALSE;
+  PetscCall(HasBalance(problem, before, s, &balance.balances));
+  if (offset || streams) balance.balances = PETSC_FALSE;
   numbers[UNBALANCED] = 0;
   if (before && friction && s->rolled == 0 && !streams && !SamProblemSlides(problem))
-    numbers[UNBALANCED] = ErrorByBalance(before, s, balances, numbers, &balance);
+    numbers[UNBALANCED] = ErrorByBalance(before, s, numbers, &balance);
   numbers[ENERGY_ERROR] = PetscMax(numbers[ENERGY_ERROR], numbers[UNBALANCED]);
   PetscCall(PetscLogEventBegin(SamEvents[SAM_EVENT_EDGES], 0, 0, 0, 0));
   numbers[EDGE_ACCEPTED] = 0;
