@@ -21,15 +21,9 @@ PLANE = dict(
 )
 SPHERE = dict(gap_type="sphere", gap_radius1=100, gap_radius2="inf", grid_n=48, grid_size=2, output_fields="all")
 SHEAR = dict(
-    grid_n=[48, 40],
-    grid_size=[2, 1.8],
-    friction=0.3,
-    load_n=0.004,
-    load_tx=6e-4,
-    load_ty=3e-4,
-    steps=2,
-    step_divide=False,
-)
+    grid_n=[48, 40], grid_size=[2, 1.8], friction=0.3, load_n=0.004, load_tx=6e-4, load_ty=3e-4, steps=2,
+    step_divide="no",
+)  # fmt: skip
 
 
 def bodies(number, **more):
