@@ -57,11 +57,11 @@ static SamSimulation NewSimulation(const Case *c, SamHistory history, const char
   SamSimulation s;
 
   sam_call(SamSimulationCreate(PETSC_COMM_WORLD, &s));
-  s->setup.grid    = c->s.grid;
-  s->setup.contact = c->contact;
-  s->history       = history;
-  s->conditions    = Conditions();
-  s->needs.steps   = SamHistoryGetCount(history);
+  s->setup.grid       = c->s.grid;
+  s->setup.contact    = c->contact;
+  s->history          = history;
+  s->setup.conditions = Conditions();
+  s->needs.steps      = SamHistoryGetCount(history);
   SetOptions(options);
   sam_call(SamSimulationReadCheckpoints(s, &(SamOptions){PETSC_COMM_WORLD, NULL}));
   SetOptions("");

@@ -97,7 +97,8 @@ typedef struct {
   tenth of a radius of curvature, and a pressure above 0.2 E*. `found`: the size of the contact, NULL if it was not
   examined in this step. Errors of numbers count for SamAdviceTell(). With `of_laws` it also passes on the warning of
   each law, once. Collective.
-  SamAdviceRenew - makes the next SamAdviceStep() at the largest load examine the worn contact again. Not collective.
+  SamAdviceRenew - makes the next SamAdviceStep() at the largest load examine the contact again, if laws wear it. Not
+  collective.
   SamAdviceBeginCycle - forgets the slip of earlier steps before a computed cycle of a wear simulation, so that only
   this cycle's energy counts. Not collective.
   SamAdviceEnd - estimates, after the last step, the errors of the dissipated energy by slip zones of few cells and by

@@ -14,6 +14,7 @@ typedef struct {
   SamPair       pair;
   SamElasticity elasticity;
   SamProblem    problem;
+  SamConditions conditions; /* of the problem; borrowed */
   SamGap        gap;
   SamContact    contact;
 } SamSetup;
@@ -36,6 +37,15 @@ PETSC_INTERN PetscErrorCode SamSetupCreateContact(SamSetup *setup, const SamOpti
 */
 PETSC_INTERN PetscErrorCode SamSetupCreateCoarse(const SamSetup *setup, PetscInt halvings, const SamOptions *from,
                                                  SamSetup *coarse);
+/*
+  SamSetupSetGap, SamSetupSetFriction - set the gap (m), or a coefficient of friction for each cell. SamSetupSetStart -
+  sets one coefficient for all cells, that of the start. SamSetupFindNeeds - finds out if the surfaces bear shear
+  anywhere, and the memory of the laws per cell (bytes). Collective. Errors: PETSC_ERR_ARG_OUTOFRANGE.
+*/
+PETSC_INTERN PetscErrorCode SamSetupSetGap(const SamSetup *setup, Vec gap);
+PETSC_INTERN PetscErrorCode SamSetupSetFriction(const SamSetup *setup, Vec friction);
+PETSC_INTERN PetscErrorCode SamSetupSetStart(const SamSetup *setup, PetscReal friction);
+PETSC_INTERN PetscErrorCode SamSetupFindNeeds(const SamSetup *setup, PetscBool *friction, PetscInt *laws);
 /* SamSetupAverage - gets the means of a field of a setup over the cells of a coarse one made of it. Collective. */
 PETSC_INTERN PetscErrorCode SamSetupAverage(const SamSetup *setup, Vec field, const SamSetup *coarse, Vec means);
 /*

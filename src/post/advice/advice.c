@@ -318,7 +318,7 @@ void SamAdviceBeginCycle(SamAdvice *a)
 
 void SamAdviceRenew(SamAdvice *a)
 {
-  if (!a->examined) return;
+  if (!a->examined || !SamProblemMoves(a->setup->problem)) return;
   a->examined = PETSC_FALSE;
   a->worn     = PETSC_TRUE;
 }

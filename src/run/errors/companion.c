@@ -18,7 +18,6 @@ PetscErrorCode SamCompanionCreate(SamSimulation s, PetscInt halvings, SamCompani
   settings             = SamContactGetSettings(run->setup.contact);
   settings.extrapolate = PETSC_FALSE; /* steady rolling: the companions are the coarser solutions */
   PetscCall(SamContactSetSettings(run->setup.contact, &settings));
-  run->conditions      = SamProblemGetConditions(run->setup.problem);
   run->needs           = s->needs;
   run->needs.companion = PETSC_FALSE;
   run->running         = PETSC_TRUE;
@@ -213,7 +212,7 @@ static PetscErrorCode Lead(SamCompanion *c, PetscInt parts, const SamControl *co
   before      = committed->control;
   before.time = control->time - 1;
   PetscCall(SamHistoryDestroy(&run->history));
-  PetscCall(SamHistoryCreate(run->comm, run->conditions, control,
+  PetscCall(SamHistoryCreate(run->comm, run->setup.conditions, control,
                              SamContactHasStep(run->setup.contact, SAM_COMMITTED) ? &before : NULL, names, 1, values, 1,
                              &whole));
   PetscCall(SamHistoryDivide(whole, parts, &run->history));

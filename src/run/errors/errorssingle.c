@@ -146,7 +146,7 @@ PetscErrorCode SamErrorsCopy(SamSimulation s, SamSimulation from)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode SamErrorsSetField(SamSimulation s, PetscErrorCode (*set)(SamProblem, Vec), Vec field)
+PetscErrorCode SamErrorsSetField(SamSimulation s, PetscErrorCode (*set)(const SamSetup *, Vec), Vec field)
 {
   const SamErrors e = s->errors;
 
@@ -159,7 +159,7 @@ PetscErrorCode SamErrorsSetField(SamSimulation s, PetscErrorCode (*set)(SamProbl
     PetscCall(SamCompanionReject(one));
     PetscCall(SamGridCreateVec(one->run->setup.grid, 1, &means));
     PetscCall(SamSetupAverage(&s->setup, field, &one->run->setup, means));
-    PetscCall((*set)(one->run->setup.problem, means));
+    PetscCall((*set)(&one->run->setup, means));
     PetscCall(VecDestroy(&means));
   }
   PetscFunctionReturn(PETSC_SUCCESS);

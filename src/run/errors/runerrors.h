@@ -51,7 +51,7 @@ PETSC_INTERN PetscErrorCode SamErrorsAdvise(SamSimulation simulation, const SamS
 PETSC_INTERN PetscErrorCode SamErrorsLose(SamSimulation simulation, const char why[]);
 PETSC_INTERN PetscErrorCode SamErrorsReset(SamSimulation simulation);
 PETSC_INTERN PetscErrorCode SamErrorsCopy(SamSimulation simulation, SamSimulation from);
-PETSC_INTERN PetscErrorCode SamErrorsSetField(SamSimulation simulation, PetscErrorCode (*set)(SamProblem, Vec),
+PETSC_INTERN PetscErrorCode SamErrorsSetField(SamSimulation simulation, PetscErrorCode (*set)(const SamSetup *, Vec),
                                               Vec           field);
 /*
   SamErrorsLoad - does the same for steps that are given one by one; without the companions' states their errors are

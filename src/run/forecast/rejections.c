@@ -22,8 +22,8 @@ static PetscErrorCode CheckComponents(SamSimulation s, const SamOptions *from)
 
     PetscCall(SamProblemCheckControl(s->setup.problem, &control, &wrong, why, sizeof(why)));
     PetscCheck(!why[0], from->comm, SAM_ERR_USER, "-%s%s, or its column in -history: %.6g: %s", SamOptionsPrefix(from),
-               SamControlPartName(&control, s->conditions, wrong),
-               (double)SamControlPart(&control, s->conditions, wrong), why);
+               SamControlPartName(&control, s->setup.conditions, wrong),
+               (double)SamControlPart(&control, s->setup.conditions, wrong), why);
     for (PetscInt c = SAM_COMPONENT_MX; c < SAM_COMPONENTS; c++) {
       char      place[PETSC_MAX_PATH_LEN + 32];
       PetscBool given;
@@ -81,7 +81,7 @@ static PetscErrorCode CheckStep(SamSimulation s, PetscInt k)
   PetscFunctionBegin;
   PetscCall(SamHistoryGetPlace(s->history, k, where, sizeof(where)));
   PetscCall(SamContactCheckConditions(s->setup.contact, &control, where));
-  PetscCall(SamMotionCheck(s->setup.elasticity, s->conditions, &control, where));
+  PetscCall(SamMotionCheck(s->setup.elasticity, s->setup.conditions, &control, where));
   PetscCheck(SamProblemGetRolled(s->setup.problem, &control, NULL) == 0 || !s->needs.life, s->comm, SAM_ERR_USER,
              "roll with -wear_cycles: surfaces that roll are worn step by step: omit one of them");
   PetscCheck(s->step_rtol == 0 || (SamProblemGetRolled(s->setup.problem, &control, NULL) == 0 &&

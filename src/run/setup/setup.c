@@ -22,6 +22,7 @@ static PetscErrorCode CreateProblem(SamSetup *s, const SamOptions *from)
   PetscCall(SamMotionSetFromOptions(from, &s->elasticity));
   PetscCall(SamProblemCreate(s->elasticity, &s->problem));
   PetscCall(SamProblemSetLawsFromOptions(s->problem, from));
+  s->conditions = SamProblemGetConditions(s->problem);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -64,6 +65,35 @@ PetscErrorCode SamSetupCreateContact(SamSetup *s, const SamOptions *from)
   if (!SamPrintHelp()) PetscCall(SamGapFill(s->gap, s->grid, SamProblemGetGap(s->problem)));
   PetscCall(SamProblemSetQuadratic(s->problem, SamGapIsQuadratic(s->gap)));
   PetscCall(CreateContact(s, from));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSetupSetGap(const SamSetup *s, Vec gap)
+{
+  PetscFunctionBegin;
+  PetscCall(SamProblemSetGap(s->problem, gap));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSetupSetFriction(const SamSetup *s, Vec friction)
+{
+  PetscFunctionBegin;
+  PetscCall(SamProblemSetFrictionField(s->problem, friction));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSetupSetStart(const SamSetup *s, PetscReal friction)
+{
+  PetscFunctionBegin;
+  PetscCall(SamProblemSetFriction(s->problem, friction));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSetupFindNeeds(const SamSetup *s, PetscBool *friction, PetscInt *laws)
+{
+  PetscFunctionBegin;
+  PetscCall(SamProblemHasFriction(s->problem, friction));
+  *laws = SamProblemGetBytes(s->problem);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -112,7 +112,7 @@ static PetscErrorCode Check(SamSimulation s, SamGradientGoal *goal)
 /* Rejects friction that changes, before any step. */
 static PetscErrorCode CheckFriction(SamSimulation s)
 {
-  const SamCondition *scale   = SamConditionsFind(s->conditions, SAM_FRICTION_SCALE);
+  const SamCondition *scale   = SamConditionsFind(s->setup.conditions, SAM_FRICTION_SCALE);
   PetscBool           changes = s->plan.points > 0 ? PETSC_TRUE : PETSC_FALSE;
 
   PetscFunctionBegin;

@@ -3,7 +3,6 @@
 #include <petsam/private/state.h>
 #include <petsam/private/wear.h>
 #include <petsam/private/contact.h>
-#include <petsam/private/stiffness.h>
 
 /* Error of a fixed jump above which a warning is given */
 #define LARGE 0.1
@@ -54,7 +53,7 @@ static PetscErrorCode WriteStep(void *context, PetscInt step, PetscReal cycles, 
   if (!step) s->last_time = PETSC_NINFINITY; /* the fields of the step before belong to no step in the file */
   PetscCall(TimeOf(s, cycles, &told.control.time));
   PetscCall(Place(s, cycles, told.control.time));
-  if (s->needs.stiffness) PetscCall(SamStiffnessRecord(s->setup.contact, &told));
+  PetscCall(SamSimulationRecordTangent(s, &told));
   s->point.steps++;
   PetscCall(SamSimulationNotify(
     s, &(SamSimulationEvent){.kind = SAM_NOTIFY_CYCLE_STEP, .step = s->point.steps - 1, .result = &told}));

@@ -50,7 +50,7 @@ PetscErrorCode SamSimulationCollectParameters(SamSimulation s)
   PetscFunctionBegin;
   s->parameters.count = 0;
   PetscCall(SamSetupAddParameters(&s->setup, &s->parameters));
-  PetscCall(AddLoads(&s->parameters, s->history, s->conditions));
+  PetscCall(AddLoads(&s->parameters, s->history, s->setup.conditions));
   PetscCall(AddLife(&s->parameters, &s->plan));
   if (!s->step_divide) PetscCall(SamParametersAddText(&s->parameters, "step_divide", PETSC_FALSE, "no"));
   if (s->step_rtol > 0) PetscCall(SamParametersAddReals(&s->parameters, "step_rtol", PETSC_FALSE, 1, &s->step_rtol));

@@ -3,9 +3,7 @@
 #include <petsam/private/checkpoint.h>
 #include <petsam/private/contact.h>
 #include <petsam/private/runfiles.h>
-#include <petsam/private/problem.h>
 #include <petsam/private/state.h>
-#include <petsam/private/stiffness.h>
 
 /* ---- creation ---- */
 
@@ -84,13 +82,13 @@ PetscErrorCode SamSimulationExamine(SamSimulation s, PetscInt k, PetscBool of_la
 static PetscErrorCode Offer(SamSimulation s)
 {
   PetscFunctionBegin;
-  for (PetscInt k = 0; k < SamConditionsCount(s->conditions); k++) {
-    const SamCondition *one = SamConditionsGet(s->conditions, k);
+  for (PetscInt k = 0; k < SamConditionsCount(s->setup.conditions); k++) {
+    const SamCondition *one = SamConditionsGet(s->setup.conditions, k);
 
     if (SamHistoryGives(s->history, one) || (s->plan.points && !strcmp(one->name, SAM_FRICTION_SCALE)))
       PetscCall(SamContactOfferCondition(s->setup.contact, one));
   }
-  if (s->needs.stiffness) PetscCall(SamStiffnessDeclare(s->setup.contact));
+  PetscCall(SamSimulationDeclareTangent(s));
   PetscCall(SamErrorsCreate(s));
   PetscCall(SamErrorsPrepare(s));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -242,7 +240,7 @@ static PetscErrorCode SolveStep(SamSimulation s, PetscBool *ended)
   PetscFunctionBegin;
   PetscCall(SamSimulationNotify(s, &(SamSimulationEvent){.kind = SAM_NOTIFY_STEP_BEGINS, .step = k}));
   PetscCall(SamSimulationTry(s, k, &step));
-  if (s->needs.stiffness) PetscCall(SamStiffnessRecord(s->setup.contact, &step));
+  PetscCall(SamSimulationRecordTangent(s, &step));
   PetscCall(SamErrorsRecord(s, k, &step));
   *ended = step.status == SAM_STATUS_CONVERGED ? PETSC_FALSE : PETSC_TRUE;
   due    = (PetscBool)(SamSimulationSaves(s, k + 1, last + 1) || *ended);
@@ -252,7 +250,7 @@ static PetscErrorCode SolveStep(SamSimulation s, PetscBool *ended)
   /* After writing, so that a reported step is in the file. */
   PetscCall(
     SamSimulationNotify(s, &(SamSimulationEvent){.kind = SAM_NOTIFY_STEP, .step = k, .result = &step, .waits = waits}));
-  if (k == last && SamProblemMoves(s->setup.problem)) SamAdviceRenew(&s->advice);
+  if (k == last) SamAdviceRenew(&s->advice);
   PetscCall(SamSimulationExamine(s, k, PETSC_TRUE, &step));
   if (!*ended) PetscCall(SamSimulationCommitStep(s, &step));
   if (*ended || !s->point.worst) s->point.worst = step.status;
@@ -397,16 +395,16 @@ PetscErrorCode SamSimulationSetGap(SamSimulation s, Vec gap)
 {
   PetscFunctionBegin;
   s->has_gap = PETSC_TRUE;
-  PetscCall(SamProblemSetGap(s->setup.problem, gap));
-  PetscCall(SamErrorsSetField(s, SamProblemSetGap, gap));
+  PetscCall(SamSetupSetGap(&s->setup, gap));
+  PetscCall(SamErrorsSetField(s, SamSetupSetGap, gap));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode SamSimulationSetFriction(SamSimulation s, Vec friction)
 {
   PetscFunctionBegin;
-  PetscCall(SamProblemSetFrictionField(s->setup.problem, friction));
-  PetscCall(SamErrorsSetField(s, SamProblemSetFrictionField, friction));
+  PetscCall(SamSetupSetFriction(&s->setup, friction));
+  PetscCall(SamErrorsSetField(s, SamSetupSetFriction, friction));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -2,9 +2,7 @@
 #include "run.h"
 #include <petsam/private/elasticity.h>
 #include <petsam/private/arguments.h>
-#include <petsam/private/lawimpl.h>
 #include <petsam/private/base.h>
-#include <petsam/private/problem.h>
 #include <string.h>
 #include <strings.h>
 
@@ -18,8 +16,8 @@ static PetscErrorCode ReadPlan(SamSimulation s, PetscBool given, const SamOption
 
   PetscFunctionBegin;
   PetscCall(SamLifeOptionsSetFromOptions(w, given, from));
-  if (w->points) PetscCall(SamProblemSetFriction(s->setup.problem, w->friction[0]));
-  PetscCall(SamProblemHasFriction(s->setup.problem, &s->needs.friction));
+  if (w->points) PetscCall(SamSetupSetStart(&s->setup, w->friction[0]));
+  PetscCall(SamSetupFindNeeds(&s->setup, &s->needs.friction, &s->needs.laws));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -60,21 +58,11 @@ static PetscErrorCode ReadResults(SamSimulation s, const SamOptions *from)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Reads the options of the contact (bodies, gap, friction), and the files. */
-static PetscErrorCode ReadContact(SamSimulation s, const SamOptions *from)
-{
-  PetscFunctionBegin;
-  PetscCall(SamSetupReadOptions(&s->setup, from));
-  s->conditions = SamProblemGetConditions(s->setup.problem);
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 static PetscErrorCode ReadFiles(SamSimulation s, const SamOptions *from)
 {
   PetscFunctionBegin;
   PetscCall(SamSimulationReadCheckpoints(s, from));
   PetscCall(ReadResults(s, from));
-  s->needs.laws = SamProblemGetBytes(s->setup.problem);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -101,8 +89,8 @@ static PetscErrorCode SetProgram(SamSimulation s, SamHistory history, PetscReal 
 PetscErrorCode SamSimulationSetFromOptions(SamSimulation s, const SamOptions *from, const SamArguments *arguments)
 {
   PetscFunctionBegin;
-  PetscCall(ReadContact(s, from));
-  PetscCall(SamHistoryCreateFromOptions(from, arguments, s->conditions, &s->history));
+  PetscCall(SamSetupReadOptions(&s->setup, from));
+  PetscCall(SamHistoryCreateFromOptions(from, arguments, s->setup.conditions, &s->history));
   PetscCall(SamSimulationReadPieces(s, from));
   PetscCall(ReadPlan(s, PETSC_FALSE, from));
   PetscCall(SetProgram(s, s->history, s->plan.cycles, from));
@@ -132,7 +120,7 @@ PetscErrorCode SamSimulationSetContactFromOptions(SamSimulation s, const SamOpti
 {
   PetscFunctionBegin;
   PetscCall(RefuseChoice(from));
-  PetscCall(ReadContact(s, from));
+  PetscCall(SamSetupReadOptions(&s->setup, from));
   PetscCall(SamSimulationReadPieces(s, from));
   PetscCall(ReadPlan(s, PETSC_TRUE, from));
   PetscCall(ReadFiles(s, from));

@@ -1,7 +1,6 @@
 /* Checkpoints of a simulation, its stop before the end, and its continuation from a checkpoint. */
 #include "run.h"
 #include <petsam/private/runfiles.h>
-#include <petsam/private/problem.h>
 #include <stdlib.h>
 
 #define MARGIN 1.1 /* assumed time of the next step, relative to the slowest of the last steps */
@@ -147,7 +146,7 @@ static void ListNotes(SamConditions conditions, Notes *n)
 static PetscErrorCode ChecksumColumns(SamSimulation simulation, PetscInt steps, uint64_t columns[COLUMNS],
                                       uint64_t conditions[SAM_CONDITIONS])
 {
-  const SamConditions list = simulation->conditions;
+  const SamConditions list = simulation->setup.conditions;
 
   PetscFunctionBegin;
   PetscCall(PetscArrayzero(columns, COLUMNS));
@@ -194,7 +193,7 @@ static PetscErrorCode Write(SamSimulation s)
   n.part[0] = (uint64_t)p->part;
   n.part[1] = p->identity;
   PetscCall(ChecksumColumns(s, s->life ? s->needs.steps : p->steps, n.loads, n.condition));
-  ListNotes(s->conditions, &n);
+  ListNotes(s->setup.conditions, &n);
   PetscCall(SamSimulationSave(s, cp->files, &s->parameters, n.count, n.note));
   cp->writing = PetscMax(cp->writing, MPI_Wtime() - begin);
   cp->last    = p->steps;
@@ -215,12 +214,12 @@ static PetscErrorCode CompareLoads(SamSimulation s, const Notes *there)
              "-restart %s: does not fit: -history or -steps: there are %ld load steps, and %ld were solved there", file,
              (long)s->needs.steps, (long)solved);
   PetscCall(ChecksumColumns(s, solved, here, conditions));
-  for (PetscInt k = 0; k <= SamControlCount(s->conditions); k++) {
+  for (PetscInt k = 0; k <= SamControlCount(s->setup.conditions); k++) {
     const PetscInt      n         = k - COLUMNS;
-    const SamCondition *condition = n < 0 ? NULL : SamConditionsGet(s->conditions, n);
+    const SamCondition *condition = n < 0 ? NULL : SamConditionsGet(s->setup.conditions, n);
     const PetscBool     column    = condition && !condition->option; /* only a column */
     const PetscBool     same      = n < 0 ? here[k] == there->loads[k] : conditions[n] == there->condition[n];
-    const char         *name      = k ? SamControlPartName(&first, s->conditions, k - 1) : "times";
+    const char         *name      = k ? SamControlPartName(&first, s->setup.conditions, k - 1) : "times";
     char                what[96];
 
     if (!k || column)
@@ -240,7 +239,7 @@ PetscErrorCode SamSimulationRestart(SamSimulation s)
   SamLifeState              life;
 
   PetscFunctionBegin;
-  ListNotes(s->conditions, &n);
+  ListNotes(s->setup.conditions, &n);
   PetscCall(SamErrorsRead(s, s->checkpoints.restart, PETSC_TRUE, &s->parameters, n.count, n.note));
   p->steps     = (PetscInt)n.progress.at.steps;
   p->worst     = (SamStatus)n.progress.at.worst;

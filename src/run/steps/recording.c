@@ -1,5 +1,20 @@
-/* The record of steps and jumps for gradients: of a simulation, and of its companions. */
+/* The record of tangents, and of steps and jumps for gradients: of a simulation, and of its companions. */
 #include "simulationimpl.h"
+#include <petsam/private/stiffness.h>
+
+PetscErrorCode SamSimulationDeclareTangent(SamSimulation s)
+{
+  PetscFunctionBegin;
+  if (s->needs.stiffness) PetscCall(SamStiffnessDeclare(s->setup.contact));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode SamSimulationRecordTangent(SamSimulation s, SamStep *step)
+{
+  PetscFunctionBegin;
+  if (s->needs.stiffness) PetscCall(SamStiffnessRecord(s->setup.contact, step));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
 
 PetscInt SamSimulationCountSteps(SamSimulation s)
 {

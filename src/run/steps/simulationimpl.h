@@ -59,7 +59,6 @@ struct _n_SamSimulation {
   void                  *context;
   volatile sig_atomic_t *signals; /* NULL: none */
   SamSetup               setup;
-  SamConditions          conditions; /* of the problem; borrowed */
   SamLifeOptions         plan;
   SamLife                life; /* NULL: none */
   SamHistory             history;
@@ -126,7 +125,9 @@ PETSC_INTERN PetscErrorCode SamSimulationCycleControl(void *simulation, PetscInt
                                                       SamControl *control);
 PETSC_INTERN PetscErrorCode SamSimulationAdviseEdge(SamSimulation simulation, const SamControl *control, SamStep *step);
 /*
-  The record for gradients (recording.c).
+  The record of what steps are asked for beside their solution, tangents and gradients (recording.c).
+    DeclareTangent   declares the numbers of the tangent stiffness, if it is asked for
+    RecordTangent    computes it in the tried step, if it is asked for
     CountSteps       returns the number of steps that numbers may be of: those of a history, or of its cycle in a wear
                      simulation. Not collective.
     CreateGradient   begins the record of all steps to come, with this shape of the gap, which is borrowed, and so many
@@ -139,6 +140,8 @@ PETSC_INTERN PetscErrorCode SamSimulationAdviseEdge(SamSimulation simulation, co
                      SamLifeCycle whose context is the simulation
   Functions that are not marked are collective. Errors: SAM_ERR_USER.
 */
+PETSC_INTERN PetscErrorCode SamSimulationDeclareTangent(SamSimulation simulation);
+PETSC_INTERN PetscErrorCode SamSimulationRecordTangent(SamSimulation simulation, SamStep *step);
 PETSC_INTERN PetscInt       SamSimulationCountSteps(SamSimulation simulation);
 PETSC_INTERN PetscErrorCode SamSimulationCreateGradient(SamSimulation simulation, SamGap shape, PetscReal memory);
 PETSC_INTERN PetscErrorCode SamSimulationEndRecord(SamSimulation simulation);

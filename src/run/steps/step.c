@@ -7,7 +7,7 @@
 PetscErrorCode SamSimulationCycleControl(void *context, PetscInt step, PetscReal cycles, SamControl *control)
 {
   SamSimulation       s     = (SamSimulation)context;
-  const SamCondition *scale = SamConditionsFind(s->conditions, SAM_FRICTION_SCALE);
+  const SamCondition *scale = SamConditionsFind(s->setup.conditions, SAM_FRICTION_SCALE);
 
   PetscFunctionBegin;
   *control = SamHistoryGetStep(s->history, SamLifeOptionsGetStart(&s->plan, s->history) + step);
@@ -35,8 +35,8 @@ PetscErrorCode SamSimulationTryStep(SamSimulation s, const SamControl *control, 
   SamAdvice      alone = {.setup = &s->setup, .most.open = s->has_gap};
 
   PetscFunctionBegin;
-  for (PetscInt k = 0; k < SamConditionsCount(s->conditions); k++) {
-    const SamCondition *one = SamConditionsGet(s->conditions, k);
+  for (PetscInt k = 0; k < SamConditionsCount(s->setup.conditions); k++) {
+    const SamCondition *one = SamConditionsGet(s->setup.conditions, k);
 
     if (SamControlGet(control, one) != one->usual) PetscCall(SamContactOfferCondition(s->setup.contact, one));
   }
