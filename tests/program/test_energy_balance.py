@@ -203,3 +203,11 @@ def test_work_of_cells_that_enter_may_be_none_at_all():
     few, many = run(rows, 1, friction=0.05, step_divide=False), run(rows, 64, friction=0.05)
     wrong = abs(few["dissipated_energy"].sum() - many["dissipated_energy"].sum())
     assert 0.1 * many["dissipated_energy"].sum() < wrong < 1.3 * few["energy_error"].sum()
+
+
+@pytest.mark.parametrize("normal, most", [(500, 0.06), (800, 0.01), (1400, 0.02)])
+def test_energy_of_a_contact_that_slides_back_as_a_whole(normal, most):
+    """In one step in which N changes: cells turn early, the earlier the more alike they slide."""
+    rows = dict(load_n=(1000, 1000, normal), disp_x=(0, 1e-5, 0))
+    one, many = (run(rows, steps, step_divide=False, grid_size=3e-3)["dissipated_energy"] for steps in (1, 64))
+    assert one[2:].sum() == pytest.approx(many[128:].sum(), rel=most)

@@ -724,8 +724,9 @@ def test_cells_that_slide_nearly_alike():
         "time": np.arange(4.0), "load_n": np.array([400.0, 400, 500, 430]), "disp_x": 1e-6 * np.array([0, 8, 12, -1]),
         "rot_z": 1e-3 * np.array([0, 0, 0.8, 1.8]),
     }  # fmt: skip
-    contact, found = check_number("energy", slice(2, 4), history, 3e-6)
-    assert contact.number("stick_area") == 0
+    for first in 2, 3:  # together, the derivatives by rot_z nearly cancel
+        contact, found = check_number("energy", slice(first, first + 1), history, 3e-6)
+        assert contact.number("stick_area") == 0
 
 
 @pytest.mark.filterwarnings("ignore")

@@ -113,8 +113,8 @@ typedef struct {
   SamValues          at_before, at_now; /* values of these solutions */
   const double      *aside;             /* `aside` of the solution after the step; NULL: zero */
   PetscBool          follows_slip;      /* true: the bound depends on the slip */
-  double             slides;            /* 1: all cells in contact slide alike; 0: one sticks, or it is not measured */
-  double             ends[2];           /* the shortest slip by which that is measured, and the longest one, m */
+  double             slides;  /* the shortest slip over the longest: 0: a cell sticks, or it is not measured */
+  double             ends[2]; /* the shortest slip by which that is measured, and the longest one, m */
 } SamIncrement;
 PETSC_INTERN PetscErrorCode SamIncrementCreate(SamProblem problem, const SamSolution *before, const SamSolution *now,
                                                SamIncrement *increment);

@@ -221,9 +221,6 @@ void SamIncrementTurnRow(const SamIncrement *s, PetscInt j, double *const to[2])
   }
 }
 
-/* Ratio of the shortest to the longest slip from which on all cells slide alike */
-#define ALIKE 0.8
-
 /* Returns the length of the slip of this rank's cell k, in the row that was computed last, if all cells in contact are
    measured by it; else -1. */
 static double Measured(const SamIncrement *s, ptrdiff_t k)
@@ -257,7 +254,7 @@ PetscErrorCode SamIncrementMeasure(SamIncrement *s)
   PetscCall(SamMax(s->grid->comm, 2, most));
   s->ends[0] = -most[0];
   s->ends[1] = most[1];
-  if (most[1] > 0) s->slides = PetscMin(-most[0] / (ALIKE * most[1]), 1);
+  if (most[1] > 0) s->slides = -most[0] / most[1];
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -271,8 +268,9 @@ PetscErrorCode SamIncrementMeasure(SamIncrement *s)
   So the bounds of all cells add up to friction times N, and a contact that slides as a whole dissipates the work of its
   loads. A cell that stuck before, or slid the other way, begins to slide at some time within the step, on average under
   b1 - (b1 - b0)/4; where it leaves the contact, it slides late and works under b0/8. That holds for slip at the edge of
-  a contact that sticks. If all cells slide, and by about the same length, they begin early. If the slip itself changes
-  the bound, the mean is used.
+  a contact that sticks. If all cells slide, they begin the earlier the more alike their slip is: if half the ratio of
+  the shortest slip to the longest one is more than 1/4, that is the weight of b0. If slip changes the bound, the mean
+  is used.
 
   A cell that stuck and loses its contact is released: its shear falls from q0 to 0, and with it what the shear has
   stored, along the slip ds, as the friction goes to 0 before the contact is lost. Where ds follows in proportion, the
