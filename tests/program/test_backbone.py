@@ -25,6 +25,7 @@ import petsam
 from petsam import joint
 from petsam.apps.compliance import basis, model, modes, rigid, stiffness
 from petsam.apps.compliance.command import arguments, carry_out
+from petsam.apps.joint import backbones
 from support import ROOT
 
 pytestmark = [
@@ -897,6 +898,23 @@ def test_files_that_are_no_pair_are_named(command, tmp_path):
                 file[name] = values
                 file[name].attrs.update(names)
         assert says in command("bad.h5", "--contact", "c.opts", "--amplitudes", "1mm", "--sensor", "TIP:z", check=code)
+
+
+@pytest.mark.parametrize("per_metre, slipping, says", [
+    (True, [6, 48], ""), (True, [3, 48], "fewer than 5 cells slip, at least 3: .* about 17 %"),
+    (True, [0, 48], "all of it"), (False, [6, 48], "fewer than 100 cells slip, at least 6: .* all of it"),
+    (False, [40, 400], "about 25 %"), (False, [100, 400], ""),
+])  # fmt: skip
+def test_how_many_cells_must_slip(per_metre, slipping, says):
+    """In plane strain the slip zone is a part of a row, and a cylinder's energy has an error of at most 0.5/cells."""
+    slipping, amplitude = np.array(slipping, float), np.array([1e-6, 1e-5])
+    found = types.SimpleNamespace(
+        per_metre=per_metre, slipping=slipping, amplitude=amplitude, numbers={}, cycles=np.ones(2)
+    )
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        backbones._warn(found)
+    assert len(told) == bool(says) and re.search(says, "".join(str(one.message) for one in told))
 
 
 def test_few_slipping_cells_and_modes_beside_the_patch_are_warned_of():

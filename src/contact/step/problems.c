@@ -193,7 +193,7 @@ static PetscErrorCode DescribeSliding(SamSolve *w, char message[], size_t size)
     PetscCall(PetscStrncpy(instead, " while N is small: give a first row of N alone", sizeof(instead)));
   cure = follows && w->contact->motion->continues ? ": use smaller load steps" : instead;
   PetscCall(PetscStrlcat(message, " cannot be balanced ", size));
-  PetscCall(PetscStrlcat(message, friction ? "by |q| <= mu p" : "without friction: give -friction", size));
+  PetscCall(PetscStrlcat(message, friction ? "by |q| <= mu p" : "without friction: give a -friction above 0", size));
   if (friction) PetscCall(PetscStrlcat(message, cure, size));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

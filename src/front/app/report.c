@@ -447,7 +447,9 @@ static PetscErrorCode CompareErrors(SamReport r, const SamErrorTable *t)
   if (!reached)
     (void)snprintf(wanted, sizeof(wanted), "-accuracy %.3g %% is not reached: ", 100 * (double)r->accuracy->error);
   if (!reached) {
-    const char *const cure[SAM_CAUSES] = {"a smaller -accuracy chooses finer cells",
+    const char *const cure[SAM_CAUSES] = {strstr(r->accuracy->chosen, "-grid_n")
+                                            ? "a smaller -accuracy chooses finer cells"
+                                            : "the cells are given: leave -grid_n out, or give more",
                                           strstr(r->accuracy->chosen, "-steps")
                                             ? "a smaller -accuracy chooses more steps"
                                             : "the steps are given, as by -steps or in a single row",

@@ -37,8 +37,8 @@ static PetscErrorCode FindFault(const PetscInt n[2], const PetscReal width[2], c
   if (!message[0] && (double)n[0] * (double)n[1] * 2 >= (double)PETSC_MAX_INT)
     PetscCall(PetscSNPrintf(message, size,
                             "%s %" PetscInt_FMT ",%" PetscInt_FMT
-                            ": more cells than this PETSc can count; configure it with 64-bit indices",
-                            names[0], n[0], n[1]));
+                            ": expected fewer than %.4g cells; a PETSc with 64-bit indices counts more",
+                            names[0], n[0], n[1], 0.5 * (double)PETSC_MAX_INT));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

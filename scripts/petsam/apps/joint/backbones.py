@@ -32,8 +32,9 @@ from .sweep import CYCLES, STEPS, BackboneWarning, Sweep, of_vibrations
 
 UNMOVED = 1e-6  # displacement of a sensor that is rounding, relative to those by the modes
 LISTED = 6  # modes in the table
-FEW = 100  # slipping cells below which the energy is inaccurate
-ERROR = 10.0  # its relative error times the number of slipping cells, about: Mindlin's sphere, a synthetic pair
+FEW = 0.1  # relative error of the energy above which its cells are too few
+ERROR = 10.0  # its error times the number of slipping cells, about: Mindlin's sphere, a synthetic pair
+ERROR_ROW = 0.5  # the same in plane strain, at most: cylinders whose T turns between 0.02 and 0.4 of the limit
 MODAL = "m kg^0.5"
 COLUMNS = {
     "alpha": ("m/s2 kg^0.5", "modal force"),
@@ -235,13 +236,14 @@ def shake(
 
 def _warn(found):
     """Warns of damping by few cells, unless its error is known, and of cycles that do not settle."""
-    few = found.slipping < FEW
+    error = ERROR_ROW if found.per_metre else ERROR
+    few = found.slipping < error / FEW
     if np.any(few) and "damping_error" not in found.numbers:
         least, last = found.slipping[few].min(), found.amplitude[few].max()
-        error = f"{100.0 * ERROR / least:.0f} %" if least > ERROR else "all of it"
+        most = f"{100.0 * error / least:.0f} %" if least > error else "all of it"
         warnings.warn(
-            f"up to an amplitude of {last:.3g} m fewer than {FEW} cells slip, at least {least:.0f}: damping there has "
-            f"an error of up to about {error}; use a finer grid",
+            f"up to an amplitude of {last:.3g} m fewer than {error / FEW:.0f} cells slip, at least {least:.0f}: "
+            f"damping there has an error of up to about {most}; use a finer grid",
             BackboneWarning,
             stacklevel=3,
         )
