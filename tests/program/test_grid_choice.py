@@ -279,6 +279,13 @@ def test_an_accuracy_beyond_all_grids_is_told_with_what_can_be_reached(petsam, s
     assert told and told[0].endswith("; -accuracy can choose no finer grid and no more steps")
 
 
+def test_an_accuracy_of_given_cells_says_what_is_given(petsam, sphere_alone):
+    case = {**sphere_alone, "grid_n": 24, "grid_size": 2.6e-3}
+    run = petsam(case, "-accuracy", "0.001%")
+    (told,) = [line for line in run.complaint if "is not reached" in line]
+    assert "the cells are given: leave -grid_n out, or give more" in told
+
+
 @pytest.mark.slow
 def test_no_grid_is_coarser_than_the_last_trial(petsam, tmp_path):
     """Its errors are as small as asked; those of coarser grids that follow from them need not be, as they wander."""

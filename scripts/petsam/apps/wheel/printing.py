@@ -69,9 +69,9 @@ def _told(row, text, name, form, unit, scale=1.0):
     """A number of a row with its error, if that is known: N 43946 N +- 12."""
     value, error = scale * row[name], scale * row.get(f"{name}_error", np.nan)
     more = f" +- {error:.2g}" if np.isfinite(error) else ""
-    if error > 0 and form[-1] != "e":  # both end at the second digit of the error
+    if more and error > 0 and form[-1] == "g":  # both end at the second digit of the error
         decimals = max(1 - int(np.floor(np.log10(error))), 0)
-        form, more = f"{form.partition('.')[0]}.{decimals}f", f" +- {error:.{decimals}f}"
+        form, more = f".{decimals}f", f" +- {error:.{decimals}f}"
     number = f"{value:{form}}" if float(f"{value:{form}}") else f"{0.0:{form}}"  # not -0
     return f"{text} {number} {unit}".strip().replace(" /m", "/m") + more
 
