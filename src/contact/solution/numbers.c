@@ -237,8 +237,8 @@ PetscErrorCode SamSolutionDeclareNumbers(SamState state, SamMotion motion)
 }
 
 /* Terms beside the work of the loads: the change of the elastic energy by the shear and by the pressure, the work in
-   cells that are released (J), and the sum of the bounds before and after the step (N); `balances`:
-   true if these add up to it. */
+   cells that are released (J), and the sum of the bounds before and after the step (N); `balances`: true if work,
+   energy and loads add up. */
 typedef struct {
   PetscBool balances;
   double    locked, pressed, released, bore, bears;
