@@ -444,10 +444,11 @@ static double ErrorByBalance(const SamSolution *before, const SamSolution *s, co
   double          lost, lacks, loses;
 
   lost  = RELEASES * PetscMax(balance->released, PetscMax(unsure, CURVED * balance->bore * (double)way));
-  lacks = balance->balances ? fabs(work.all - balance->locked - numbers[DISSIPATED_ENERGY])
+  lacks = balance->balances ? work.all - balance->locked - numbers[DISSIPATED_ENERGY]
                             : (grows && !SamRuleTouches(s->rule) ? work.unlike : unsure) * stiffer / (2 - stiffer) / 3;
   if (balance->balances && grows && normal.unsure > 0)
-    lacks = PetscMin(lacks, fabs(lacks - (normal.all - balance->pressed) / normal.unsure * unsure));
+    lacks = PetscMin(fabs(lacks), fabs(lacks - (normal.all - balance->pressed) / normal.unsure * unsure));
+  lacks = fabs(lacks);
   if (lacks <= ROUNDING * numbers[STORED_ENERGY]) lacks = 0;
   if (grows && lacks <= LOCKS * (fabs(balance->locked) + unsure)) lacks = 0;
   loses = PetscMax(lacks, balance->bears > 0 ? (balance->balances ? RELEASES : 1) * balance->released : lost);
